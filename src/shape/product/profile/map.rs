@@ -24,7 +24,7 @@ const ROWS_OF_ARM: usize = 200;
 const JOINING: f64 = 0.08;
 /// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1); an arm between shoulder
 /// joint (0) and wrist (1).
-const LEG_FADE: (f64, f64) = (-0.05, 0.12);
+const LEG_FADE: (f64, f64) = (-0.10, 0.10);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
 /// The palm's share of a hand's length, and the half width of its border with the fingers.
 const PALM: f64 = 0.45;
@@ -475,12 +475,12 @@ fn level_tables(
     };
     let (up, down) = (chin - crotch, crotch - frame.heights.sole);
     let step = (length / ROWS_PER_HEAD).max(up.max(down) / MOST_ROWS);
-    // Just below it: the torso's lowest slice, and what stands out of it as what is below.
+    // Just below it: as broad as the torso's lowest slice, or as what is below where that is more.
     let hem = |y: f64| -> [f64; 6] {
         let (mut row, under) = (of_torso(y), below(y));
         for (scale, half) in [(0, 2), (1, 3)] {
             let wider = row[half].max(under[half]);
-            row[scale] = (row[scale] * row[half] + under[scale] * (wider - row[half])) / wider;
+            row[scale] = (row[scale] * row[half]).max(under[scale] * under[half]) / wider;
             row[half] = wider;
         }
         row
