@@ -1,4 +1,6 @@
-//! Lists without repeats, and marks of what is in a list.
+//! Lists without repeats, marks of what is in a list, and where.
+
+use super::NONE;
 
 /// Each of `things` once, ascending.
 pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
@@ -15,6 +17,13 @@ pub fn marked(count: usize, numbers: impl IntoIterator<Item = usize>) -> Vec<boo
     marks
 }
 
+/// For each of `count` things its slot in the list of `numbers`; [`NONE`] for what is not in it.
+pub fn slots<'a>(count: usize, numbers: impl IntoIterator<Item = &'a u32>) -> Vec<u32> {
+    let mut slots = vec![NONE; count];
+    (0..).zip(numbers).for_each(|(slot, &number)| slots[number as usize] = slot);
+    slots
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -23,5 +32,6 @@ mod tests {
     fn lists_lose_what_repeats_and_marks_stand_at_its_numbers() {
         assert_eq!(distinct([3, 1, 3, 2, 1]), [1, 2, 3]);
         assert_eq!(marked(4, [2, 0, 2]), [true, false, true, false]);
+        assert_eq!(slots(4, &[3, 1]), [NONE, 1, NONE, 0]);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::wide::{Child, LANES, refitted};
 use super::{Closest, Surface, has_area, padded_box, unit_box};
+use crate::geometry::slots;
 use glam::DVec3;
 use obvhs::aabb::Aabb;
 
@@ -20,10 +21,7 @@ pub struct Tree {
 impl Tree {
     /// That of `surface`, which was made of so many triangles.
     pub fn of(surface: &Surface, triangle_count: usize) -> Self {
-        let mut slots = vec![u32::MAX; triangle_count];
-        for (slot, &triangle) in (0..).zip(&surface.triangles) {
-            slots[triangle as usize] = slot;
-        }
+        let slots = slots(triangle_count, &surface.triangles);
         let nodes = surface.nodes.iter().map(|node| node.children).collect();
         Self { nodes, triangles: surface.triangles.clone(), slots }
     }

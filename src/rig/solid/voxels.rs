@@ -1,7 +1,7 @@
 //! The filled cells of a solid, one after the other, and their neighbours.
 
 use super::Solid;
-use crate::geometry::NONE;
+use crate::geometry::{NONE, slots};
 use glam::IVec3;
 
 /// The filled cells of a solid by slots.
@@ -28,10 +28,7 @@ impl Voxels {
     pub fn of(solid: Solid) -> Self {
         let cells: Vec<u32> =
             (0..solid.layers.len() as u32).filter(|&cell| solid.layers[cell as usize] > 0).collect();
-        let mut slots = vec![NONE; solid.layers.len()];
-        for (slot, &cell) in cells.iter().enumerate() {
-            slots[cell as usize] = slot as u32;
-        }
+        let slots = slots(solid.layers.len(), &cells);
         let around = neighbourhood().map(|at| (solid.stride(at), at.abs().element_sum() as usize)).collect();
         Self { solid, slots, cells, around }
     }

@@ -2,7 +2,7 @@
 
 use super::{Match, normalised};
 use crate::geometry::laplacian::{COLUMNS, Cholesky, cotangent_laplacian};
-use crate::geometry::{NONE, Neighbours, ROUNDING};
+use crate::geometry::{NONE, Neighbours, ROUNDING, slots};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -86,10 +86,7 @@ impl Fill {
     pub(super) fn new(weights: &EdgeWeights, pulls: Vec<Option<f64>>) -> Self {
         let free: Vec<u32> =
             (0..pulls.len()).filter(|&vertex| is_free(pulls[vertex])).map(|vertex| vertex as u32).collect();
-        let mut slots = vec![NONE; pulls.len()];
-        for (slot, &vertex) in free.iter().enumerate() {
-            slots[vertex as usize] = slot as u32;
-        }
+        let slots = slots(pulls.len(), &free);
         let mut diagonal = Vec::with_capacity(free.len());
         let mut lower = Vec::new();
         for (slot, &vertex) in free.iter().enumerate() {

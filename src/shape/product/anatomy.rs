@@ -8,7 +8,7 @@ use super::landmarks::{Landmarks, landmarks, middle};
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{bounds, foot, mean, range};
+use crate::geometry::{bounds, foot, mean, range, upper_median};
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -202,13 +202,10 @@ impl Anatomy {
         let head_half_depth = head_half_depth(figure, &head, heights.chin + HEAD_DEPTH_AT * length)
             .filter(|half| (LEAST..MOST_HEAD_DEPTH).contains(&(half / length)));
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
-        let mut widths: Vec<f64> = (1..=TORSO_SLICES)
-            .filter_map(|step| {
-                slice(figure, &torso, bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom))
-            })
-            .map(|slice| slice.half_width)
-            .collect();
-        widths.sort_by(f64::total_cmp);
+        let widths = (1..=TORSO_SLICES).filter_map(|step| {
+            let y = bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom);
+            slice(figure, &torso, y).map(|slice| slice.half_width)
+        });
         let radius = |segment: usize, limbs: &[Limb]| {
             mean(limbs.iter().filter_map(|limb| {
                 let (a, b) = if segment == 0 { (limb.root, limb.middle) } else { (limb.middle, limb.end) };
@@ -244,7 +241,7 @@ impl Anatomy {
                 let (low, high) = range(points.iter().map(|p| p.z));
                 high - low
             }),
-            torso_half_width: widths.get(widths.len() / 2).copied(),
+            torso_half_width: upper_median(widths),
             upper_arm_radius: radius(0, arms),
             lower_arm_radius: radius(1, arms),
             upper_leg_radius: radius(0, legs),

@@ -4,7 +4,7 @@ use super::anatomy::Anatomy;
 use crate::character::{Character, MeshKind, Role};
 use crate::face::head::{Head, HeadFrame, HeadParts};
 use crate::face::outline::OutlineSources;
-use crate::geometry::SEAM;
+use crate::geometry::{SEAM, distinct, slots};
 use crate::shape::field::Binding;
 use crate::shape::figure::Figure;
 use glam::{DVec2, DVec3};
@@ -68,15 +68,11 @@ pub fn outline_sources(figure: &Figure, anatomy: &Anatomy, bindings: &[Binding])
         trunk: of(false, &|kind| !kind.is_carried()),
         ..OutlineSources::default()
     };
-    let mut numbers = vec![u32::MAX; figure.positions.len()];
-    let all = sources.bare.iter_mut().chain(&mut sources.hair).chain(&mut sources.trunk);
-    for corner in all.flatten() {
-        let number = &mut numbers[*corner as usize];
-        if *number == u32::MAX {
-            *number = sources.vertices.len() as u32;
-            sources.vertices.push(*corner);
-        }
-        *corner = *number;
+    let OutlineSources { vertices, bare, hair, trunk } = &mut sources;
+    *vertices = distinct(bare.iter().chain(&*hair).chain(&*trunk).flatten().copied());
+    let slots = slots(figure.positions.len(), &*vertices);
+    for corner in bare.iter_mut().chain(hair).chain(trunk).flatten() {
+        *corner = slots[*corner as usize];
     }
     sources
 }

@@ -8,11 +8,11 @@ use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use crate::geometry::{
     CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, mean,
-    range, weld,
+    range, slots, upper_median, weld,
 };
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
-use crate::shape::measure::{HeadTop, head_top};
+use crate::shape::measure::head_top;
 use glam::DVec3;
 
 /// A vertex with this much weight to the head moves with it alone. D25. Seen: one head of 14 changes its crown by .002
@@ -113,7 +113,7 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
     let sources = HeadSources::of(figure);
     let positions = sources.vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
     let placed = HeadPlacement::of(figure, positions, |joint| figure.joints[joint]);
-    let HeadHeights { crown, chin, chin_seen, crown_source } = upper(&sources, &placed);
+    let ((crown, crown_source), (chin, chin_seen)) = crown_and_chin(&sources, &placed);
     let sole = sources.sole(&placed);
     let shoulder_line = placed.shoulder_line;
     let hip_line =
@@ -172,6 +172,8 @@ struct HeadTriangles {
 pub struct HeadPlacement {
     /// By [`HeadSources::vertices`].
     positions: Vec<DVec3>,
+    /// Lowest and highest of these along up.
+    extent: (f64, f64),
     head_joint: DVec3,
     shoulder_line: f64,
 }
@@ -192,40 +194,33 @@ impl HeadSources {
         let lowest = shoulder_line - (figure.extent.1 - shoulder_line);
         let mut upper = upper_triangles(figure);
         upper.retain(|corners| corners.iter().any(|&vertex| figure.positions[vertex as usize].y > lowest));
-        let (bare, with_hair) = (of_head(true), of_head(false));
-        let mut sources = Self { vertices: Vec::new(), bare, with_hair, upper, soles: soles(figure) };
-        sources.number(figure.positions.len());
-        sources
-    }
-
-    /// Numbers all by `vertices`.
-    fn number(&mut self, vertex_count: usize) {
-        let Self { vertices, bare, with_hair, upper, soles } = self;
+        let (mut bare, mut with_hair, mut soles) = (of_head(true), of_head(false), soles(figure));
         // Without a head the highest point of all is the crown, without legs the lowest one the sole.
-        *vertices = if with_hair.all.is_empty() || soles.is_empty() {
-            (0..vertex_count as u32).collect()
+        let vertices: Vec<u32> = if with_hair.all.is_empty() || soles.is_empty() {
+            (0..figure.positions.len() as u32).collect()
         } else {
-            distinct(upper.iter().flatten().chain(&with_hair.vertices).chain(&*soles).copied())
+            distinct(upper.iter().flatten().chain(&with_hair.vertices).chain(&soles).copied())
         };
-        let mut numbers = vec![0; vertex_count];
-        for (number, &vertex) in vertices.iter().enumerate() {
-            numbers[vertex as usize] = number as u32;
+        let slots = slots(figure.positions.len(), &vertices);
+        let number = |vertex: &mut u32| *vertex = slots[*vertex as usize];
+        for triangles in [&mut bare.all, &mut with_hair.all, &mut upper] {
+            triangles.iter_mut().flatten().for_each(number);
         }
-        for list in [&mut bare.all, &mut with_hair.all, upper] {
-            list.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
+        for head in [&mut bare, &mut with_hair] {
+            head.vertices.iter_mut().chain(&mut head.sure).for_each(number);
         }
-        let heads = [bare, with_hair].into_iter().flat_map(|head| [&mut head.vertices, &mut head.sure]);
-        heads.chain([soles]).flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
+        soles.iter_mut().for_each(number);
+        Self { vertices, bare, with_hair, upper, soles }
     }
 
     fn sole(&self, placed: &HeadPlacement) -> f64 {
         let heights = self.soles.iter().map(|&vertex| placed.positions[vertex as usize].y);
-        heights.min_by(f64::total_cmp).unwrap_or(extent(&placed.positions).0)
+        heights.min_by(f64::total_cmp).unwrap_or(placed.extent.0)
     }
 
     /// How many heads tall that is: [`Heights::heads`], without what that does not need.
     pub fn heads(&self, placed: &HeadPlacement) -> f64 {
-        let HeadHeights { crown, chin, .. } = upper(self, placed);
+        let ((crown, _), (chin, _)) = crown_and_chin(self, placed);
         (crown - self.sole(placed)) / (crown - chin)
     }
 }
@@ -234,28 +229,24 @@ impl HeadPlacement {
     /// `figure` with the vertices of its [`HeadSources`] at `positions`, and joints where `place_joint` says.
     pub fn of(figure: &Figure, positions: Vec<DVec3>, place_joint: impl Fn(usize) -> DVec3) -> Self {
         Self {
+            extent: extent(&positions),
             positions,
             head_joint: figure.humanoid.joint(Role::Head).map_or(DVec3::ZERO, &place_joint),
             shoulder_line: shoulder_line(figure, place_joint),
         }
     }
+
+    fn height(&self) -> f64 {
+        self.extent.1 - self.extent.0
+    }
 }
 
-/// The heights that are read above the waist.
-struct HeadHeights {
-    crown: f64,
-    chin: f64,
-    chin_seen: bool,
-    crown_source: CrownSource,
-}
-
-fn upper(sources: &HeadSources, placed: &HeadPlacement) -> HeadHeights {
-    let (low, high) = extent(&placed.positions);
-    let (crown, crown_source) = crown(sources, placed, low, high);
+/// The heights that are read above the waist: the crown, and what it is the top of; the chin, and whether it was seen.
+fn crown_and_chin(sources: &HeadSources, placed: &HeadPlacement) -> ((f64, CrownSource), (f64, bool)) {
+    let (crown, crown_source) = crown(sources, placed);
     // A head whose crown lies below the shoulders is no head; keep a sliver so that nothing divides by 0.
-    let crown = crown.max(placed.shoulder_line + HAIRBREADTH * (high - low));
-    let (chin, chin_seen) = chin(sources, placed, crown, high - low);
-    HeadHeights { crown, chin, chin_seen, crown_source }
+    let crown = crown.max(placed.shoulder_line + HAIRBREADTH * placed.height());
+    ((crown, crown_source), chin(sources, placed, crown))
 }
 
 fn shoulder_line(figure: &Figure, place_joint: impl Fn(usize) -> DVec3) -> f64 {
@@ -314,63 +305,48 @@ fn within(
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
 /// target, scaled. A joint that lies outside of its head gets a ring around the head's middle.
-fn crown(sources: &HeadSources, placed: &HeadPlacement, low: f64, high: f64) -> (f64, CrownSource) {
+fn crown(sources: &HeadSources, placed: &HeadPlacement) -> (f64, CrownSource) {
     let (bare, with_hair) = (&sources.bare, &sources.with_hair);
-    for (triangles, over_joint, hits_needed, source) in [
-        (bare, true, MOST_RAYS, CrownSource::Skull),
-        (bare, false, MOST_RAYS, CrownSource::Skull),
-        (with_hair, true, MOST_RAYS, CrownSource::Hair),
-        (with_hair, false, 1, CrownSource::Hair),
-    ] {
-        let top = top(triangles, triangles, placed, over_joint, low, high);
-        if let Some(point) = top.point.filter(|_| top.hit_count >= hits_needed) {
-            return (point.y, source);
-        }
-    }
+    let skull = top(bare, bare, placed, MOST_RAYS).map(|y| (y, CrownSource::Skull));
+    let hair = || top(with_hair, with_hair, placed, 1).map(|y| (y, CrownSource::Hair));
     // No head geometry over the head joint: the highest point of the whole figure.
-    (high, CrownSource::Figure)
+    skull.or_else(hair).unwrap_or((placed.extent.1, CrownSource::Figure))
 }
 
 /// The top of all that the head moves, hair and hats included, straight above its joint: where the head bone ends, about
 /// which the paper says nothing. A joint that lies outside of its head gets a ring around the head's middle.
 fn top_with_hair(sources: &HeadSources, placed: &HeadPlacement) -> Option<f64> {
-    let (low, high) = extent(&placed.positions);
     let all = &sources.with_hair;
     // Hair may be wide, and a ring as wide would lie beside the head.
     let width = if sources.bare.all.is_empty() { all } else { &sources.bare };
-    let over_joint = top(all, width, placed, true, low, high);
-    let point = over_joint.point.filter(|_| over_joint.hit_count >= MOST_RAYS);
-    point.or_else(|| top(all, width, placed, false, low, high).point).map(|point| point.y)
+    top(all, width, placed, 1)
 }
 
-/// The top of `triangles` over the head joint or over their middle, by a ring after the width of `width`.
+/// The top of `triangles` over the head joint, where most of the rays meet it, or else over their middle, where `least` do; by a
+/// ring after the width of `width`.
 fn top(
     triangles: &HeadTriangles,
     width: &HeadTriangles,
     placed: &HeadPlacement,
-    over_joint: bool,
-    low: f64,
-    high: f64,
-) -> HeadTop {
+    least: usize,
+) -> Option<f64> {
     let (positions, joint) = (&placed.positions, placed.head_joint);
-    let (Some((centre, _)), Some((_, half))) =
-        (middle(positions, &triangles.vertices), middle(positions, &width.vertices))
-    else {
-        return HeadTop { point: None, hit_count: 0 };
-    };
+    let (centre, _) = middle(positions, &triangles.vertices)?;
     // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
-    let half = middle(positions, &width.sure).map_or(half, |(_, half)| half);
-    let centre = if over_joint { joint } else { centre };
+    let (_, half) = middle(positions, &width.sure).or_else(|| middle(positions, &width.vertices))?;
     let reach = DVec3::splat(half.x / 4.0);
-    // No ray meets anything else, and a tree of few triangles is made soon.
-    let around = [centre - reach, centre + reach];
-    let near = within(positions, &triangles.all, around, SLIVER * (high - low));
-    let above = high + HAIRBREADTH * (high - low);
-    head_top(&Surface::new(positions, &near), centre.with_y(joint.y), half.x, above)
+    let above = placed.extent.1 + HAIRBREADTH * placed.height();
+    [(joint, MOST_RAYS), (centre, least)].into_iter().find_map(|(over, least)| {
+        // No ray meets anything else, and a tree of few triangles is made soon.
+        let around = [over - reach, over + reach];
+        let near = within(positions, &triangles.all, around, SLIVER * placed.height());
+        let top = head_top(&Surface::new(positions, &near), over.with_y(joint.y), half.x, above);
+        top.point.filter(|_| top.hit_count >= least).map(|point| point.y)
+    })
 }
 
 /// The chin: the deepest step back below the face, seen from the front.
-fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) -> (f64, bool) {
+fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64) -> (f64, bool) {
     let (positions, triangles, shoulder_line) = (&placed.positions, &sources.upper, placed.shoulder_line);
     let span = crown - shoulder_line;
     let by_ratio = (shoulder_line + CHIN_BY_RATIO * span, false);
@@ -378,14 +354,13 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     let Some((face, half)) = head.or_else(|| middle(positions, triangles.as_flattened())) else {
         return by_ratio;
     };
-    let front =
-        triangles.iter().flatten().map(|&v| positions[v as usize].z).fold(f64::NEG_INFINITY, f64::max)
-            + HAIRBREADTH * span;
+    let (_, front) = range(triangles.iter().flatten().map(|&vertex| positions[vertex as usize].z));
+    let front = front + HAIRBREADTH * span;
     let row_height = (CHIN_RANGE.1 - CHIN_RANGE.0) * span / CHIN_ROWS as f64;
     let row_y = |row: usize| shoulder_line + CHIN_RANGE.0 * span + (row as f64 + 0.5) * row_height;
     let columns = CHIN_COLUMNS.map(|column| face.x + column * 2.0 * half.x);
     // No ray meets anything else, and a tree of few triangles is made soon.
-    let sliver = SLIVER * height;
+    let sliver = SLIVER * placed.height();
     let near = triangles.iter().filter(|corners| {
         let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
         let (least, most) = (a.min(b).min(c) - sliver, a.max(b).max(c) + sliver);
@@ -396,15 +371,10 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64, height: f64) 
     let surface = Surface::new(positions, &near.copied().collect::<Vec<_>>());
     let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
         .map(|row| {
-            let mut hits: Vec<f64> = columns
-                .iter()
-                .filter_map(|&column| {
-                    let origin = DVec3::new(column, row_y(row), front);
-                    surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
-                })
-                .collect();
-            hits.sort_by(f64::total_cmp);
-            (!hits.is_empty()).then(|| hits[hits.len() / 2])
+            upper_median(columns.iter().filter_map(|&column| {
+                let origin = DVec3::new(column, row_y(row), front);
+                surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
+            }))
         })
         .collect();
     let band = ((CHIN_BAND * span / row_height).round() as usize).max(1);
@@ -422,9 +392,8 @@ fn trunk(figure: &Figure) -> Vec<bool> {
     let weld = weld(&figure.positions, SEAM * figure.height());
     let component = components(&figure.triangles, &weld);
     let of = |vertex: usize| component[weld.representative[vertex] as usize] as usize;
-    let count = component.iter().max().map_or(0, |&last| last as usize + 1);
     // How much more of it is of head and trunk than of limbs.
-    let mut own = vec![0.0; count];
+    let mut own = vec![0.0; weld.count];
     for vertex in 0..figure.positions.len() {
         let of_trunk = figure.weight_of(vertex, is_upper);
         let is_far = figure.weight_of(vertex, is_far) > 0.5;
@@ -468,20 +437,10 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
         (Some(l), Some(r)) => (l.y + r.y) / 2.0,
         _ => (figure.extent.0 + hip_line) / 2.0,
     };
-    let triangles = figure.triangles_where(|vertex| {
-        figure.weight_of(vertex, |role| {
-            matches!(
-                role,
-                Hips | Spine
-                    | Chest
-                    | UpperChest
-                    | LeftUpperLeg
-                    | RightUpperLeg
-                    | LeftLowerLeg
-                    | RightLowerLeg
-            )
-        }) > 0.5
-    });
+    let trunk = [Hips, Spine, Chest, UpperChest];
+    let legs = [LeftUpperLeg, RightUpperLeg, LeftLowerLeg, RightLowerLeg];
+    let is_near = |role: Role| trunk.contains(&role) || legs.contains(&role);
+    let triangles = figure.triangles_where(|vertex| figure.weight_of(vertex, is_near) > 0.5);
     let surface = Surface::new(&figure.positions, &triangles);
     let Some((_, half)) = middle(&figure.positions, triangles.as_flattened()) else {
         return by_ratio;

@@ -7,7 +7,7 @@
 use super::pieces::once;
 use crate::character::MeshKind;
 use crate::geometry::point_tree::Near;
-use crate::geometry::{PointTree, Weld, smoothstep, weld};
+use crate::geometry::{PointTree, Weld, smoothstep, upper_median, weld};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -165,13 +165,8 @@ fn plane(points: &[DVec3], normal: DVec3, tolerance: f64) -> Option<Plane> {
         let along = p.dot(normal);
         (*low, *high) = (low.min(along), high.max(along));
     }
-    let mut middles: Vec<f64> = ends
-        .into_iter()
-        .filter(|(low, high)| high - low > 2.0 * tolerance)
-        .map(|(low, high)| (low + high) / 2.0)
-        .collect();
-    middles.sort_by(f64::total_cmp);
-    middles.get(middles.len() / 2).map(|&at| Plane { normal, at })
+    let beside = ends.into_iter().filter(|(low, high)| high - low > 2.0 * tolerance);
+    upper_median(beside.map(|(low, high)| (low + high) / 2.0)).map(|at| Plane { normal, at })
 }
 
 /// The twin of each point of `tree`, and how much of one it is; of several at one place that which belongs to the same, as

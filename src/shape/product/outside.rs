@@ -18,36 +18,27 @@ pub struct Outside<'a> {
 impl<'a> Outside<'a> {
     /// Of `triangles` between `points`; `outwards`: 1, or -1 where they are wound to look inwards.
     ///
-    /// `rims`: the triangles' own.
+    /// - `rims`: the triangles' own.
+    /// - `tree`: that of the same triangles at rest, for a body that has moved.
     pub fn new(
         points: &[DVec3],
         triangles: &'a [[u32; 3]],
         rims: &[u32],
         weld: &'a Weld,
         outwards: f64,
+        tree: Option<&'a Tree>,
     ) -> Self {
         let normals = vertex_normals(points, triangles, rims, weld);
-        let surface = Surface::for_many(points, triangles);
-        Self { surface, normals, triangles, weld, outwards, tree: None }
+        let surface = match tree {
+            Some(tree) => Surface::with_tree(points, triangles, tree),
+            None => Surface::for_many(points, triangles),
+        };
+        Self { surface, normals, triangles, weld, outwards, tree }
     }
 
     /// The tree of the body's surface, for when it has moved.
     pub fn tree(&self) -> Tree {
         Tree::of(&self.surface, self.triangles.len())
-    }
-
-    /// As [`Outside::new`], of a body of the same triangles that had this `tree` at rest.
-    pub fn moved(
-        points: &[DVec3],
-        triangles: &'a [[u32; 3]],
-        rims: &[u32],
-        weld: &'a Weld,
-        outwards: f64,
-        tree: &'a Tree,
-    ) -> Self {
-        let normals = vertex_normals(points, triangles, rims, weld);
-        let surface = Surface::with_tree(points, triangles, tree);
-        Self { surface, normals, triangles, weld, outwards, tree: Some(tree) }
     }
 
     /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is

@@ -71,8 +71,6 @@ struct Membrane<'a> {
     displaced: Vec<DVec3>,
     /// How much of a place's displacement the bed takes back.
     bed: Vec<f64>,
-    /// Places that may move, in order.
-    moving: Vec<u32>,
 }
 
 /// What a layer keeps of its distance from what it lies on, and how far a push goes; in the units of the places.
@@ -149,16 +147,14 @@ impl Worn {
         if !membrane.find_pushes(&outside, &all, threads) {
             return Ok(None);
         }
-        membrane.find_moving();
-        let moving = membrane.moving.clone();
+        let moving = membrane.moving();
         for round in 0..ROUNDS {
             if round > 0 && !membrane.find_pushes(&outside, &moving, threads) {
                 break;
             }
-            membrane.relax();
+            membrane.relax(&moving);
         }
-        membrane.turn_nothing_over();
-        Ok(Some(membrane.displaced))
+        Ok(Some(membrane.turning_nothing_over()))
     }
 }
 
@@ -179,7 +175,6 @@ impl<'a> Membrane<'a> {
             points,
             push: vec![None; count],
             displaced: vec![DVec3::ZERO; count],
-            moving: Vec::new(),
         }
     }
 
@@ -210,18 +205,15 @@ impl<'a> Membrane<'a> {
             let least = displaced.dot(way) + share * (kept - distance);
             (least <= furthest).then_some(Push { way, least })
         });
-        let mut is_new = false;
+        let is_new = found.iter().any(Option::is_some);
         for (&place, push) in places.iter().zip(found) {
-            if push.is_some() {
-                self.push[place as usize] = push;
-                is_new = true;
-            }
+            self.push[place as usize] = push.or(self.push[place as usize]);
         }
         is_new
     }
 
-    /// The places near what is pushed, along the cloth.
-    fn find_moving(&mut self) {
+    /// The places that may move, in order: those near what is pushed, along the cloth.
+    fn moving(&self) -> Vec<u32> {
         let spread = self.layer.spread;
         let mut away = vec![f64::INFINITY; self.points.len()];
         let mut queue = VecDeque::new();
@@ -247,17 +239,15 @@ impl<'a> Membrane<'a> {
             self.worn.under[place].is_some_and(|under| under.corners.iter().any(|&c| moves[c as usize]))
         };
         let may_move = |&place: &usize| (moves[place] || is_over(place)) && !self.worn.is_sewn[place];
-        self.moving = (0..self.points.len()).filter(may_move).map(|place| place as u32).collect();
+        (0..self.points.len()).filter(may_move).map(|place| place as u32).collect()
     }
 
     /// Makes the displacement as smooth as the pushes allow.
-    fn relax(&mut self) {
-        let moving = std::mem::take(&mut self.moving);
+    fn relax(&mut self, moving: &[u32]) {
         for _ in 0..SWEEPS {
             moving.iter().for_each(|&place| self.settle(place as usize));
             moving.iter().rev().for_each(|&place| self.settle(place as usize));
         }
-        self.moving = moving;
     }
 
     fn settle(&mut self, place: usize) {
@@ -283,29 +273,21 @@ impl<'a> Membrane<'a> {
         self.displaced[place] = to;
     }
 
-    /// Takes back of the displacement what would turn a triangle over.
-    fn turn_nothing_over(&mut self) {
-        let moved = |displaced: &[DVec3], corners: [u32; 3]| {
-            corners.map(|corner| self.points[corner as usize] + displaced[corner as usize])
-        };
-        let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+    /// The displacement without what would turn a triangle over.
+    fn turning_nothing_over(self) -> Vec<DVec3> {
+        let Self { worn, points, mut displaced, .. } = self;
         let is_flipped = |displaced: &[DVec3], corners: [u32; 3]| {
             if corners.iter().all(|&corner| displaced[corner as usize] == DVec3::ZERO) {
                 return false;
             }
-            let before = double_area(&self.points, corners);
-            let after = normal(moved(displaced, corners));
+            let before = double_area(&points, corners);
+            let [a, b, c] = corners.map(|corner| points[corner as usize] + displaced[corner as usize]);
+            let after = (b - a).cross(c - a);
             before != DVec3::ZERO && after.dot(before) <= LEAST_TURN * after.length() * before.length()
         };
-        let mut displaced = std::mem::take(&mut self.displaced);
         for easing in 0.. {
-            let flipped: Vec<[u32; 3]> = self
-                .worn
-                .triangles
-                .iter()
-                .copied()
-                .filter(|&corners| is_flipped(&displaced, corners))
-                .collect();
+            let flipped = worn.triangles.iter().copied().filter(|&corners| is_flipped(&displaced, corners));
+            let flipped: Vec<[u32; 3]> = flipped.collect();
             if flipped.is_empty() {
                 break;
             }
@@ -315,7 +297,7 @@ impl<'a> Membrane<'a> {
                     let own = &mut displaced[corner as usize];
                     // First together; what does not help is taken back.
                     *own = match easing {
-                        _ if self.worn.is_sewn[corner as usize] => DVec3::ZERO,
+                        _ if worn.is_sewn[corner as usize] => DVec3::ZERO,
                         easing if easing < EASINGS => own.lerp(mean, 0.5),
                         easing if easing < 2 * EASINGS => 0.5 * *own,
                         _ => DVec3::ZERO,
@@ -323,6 +305,6 @@ impl<'a> Membrane<'a> {
                 }
             }
         }
-        self.displaced = displaced;
+        displaced
     }
 }

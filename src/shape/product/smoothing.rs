@@ -4,7 +4,7 @@ use super::part::{PART_COUNT, Part, PartWeights, TINY, add};
 use super::profile::chains::arm_share;
 use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::{Neighbours, Weld, neighbours, smoothstep};
+use crate::geometry::{Neighbours, Weld, neighbours, smoothstep, upper_median};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
@@ -59,11 +59,7 @@ pub fn smooth_along(
                 .map(|&other| p.distance(figure.positions[firsts[other as usize] as usize])),
         );
     }
-    if edges.is_empty() {
-        return Ok(());
-    }
-    let middle = edges.len() / 2;
-    let median = *edges.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let Some(median) = upper_median(edges) else { return Ok(()) };
     let width = SMOOTHING_WIDTH * figure.height() / median.max(f64::MIN_POSITIVE);
     let passes =
         (PASSES_PER_SQUARE * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;

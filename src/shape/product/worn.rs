@@ -3,7 +3,7 @@
 use super::outside::{Outside, rims, volume};
 use crate::character::MeshKind;
 use crate::geometry::{
-    Neighbours, Surface, Tree, Weld, WindingGroups, components, distinct, marked, neighbours,
+    NONE, Neighbours, Surface, Tree, Weld, WindingGroups, components, distinct, marked, neighbours, slots,
 };
 use crate::parallel;
 use crate::shape::figure::Figure;
@@ -87,7 +87,7 @@ impl Worn {
         // Of what is perhaps cloth the rest is body too.
         if !perhaps.is_empty() {
             let rims = rims(&body, weld);
-            let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
+            let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards, None);
             let (over, beside) = lying_over(figure, &outside, perhaps, weld, threads);
             cloth.extend(over);
             body.extend(beside);
@@ -100,7 +100,7 @@ impl Worn {
 
     /// The outside of the body where all vertices are at `points`.
     pub fn outside<'a>(&'a self, points: &[DVec3], weld: &'a Weld) -> Outside<'a> {
-        Outside::moved(points, &self.body, &self.rims, weld, self.outwards, &self.tree)
+        Outside::new(points, &self.body, &self.rims, weld, self.outwards, Some(&self.tree))
     }
 
     /// Those of `places` that the body, of which `groups` are made, is around where all vertices are at `points`.
@@ -137,20 +137,13 @@ impl Worn {
         threads: usize,
     ) -> Self {
         let rims = rims(&body, weld);
-        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards);
+        let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards, None);
         // By number, so that the order of a triangle's corners, which a mirrored mesh may have turned, changes nothing.
-        let mut first = vec![u32::MAX; weld.count];
-        for &vertex in cloth.iter().flatten() {
-            let first = &mut first[weld.representative[vertex as usize] as usize];
-            *first = vertex.min(*first);
-        }
-        let places: Vec<u32> =
-            (0..weld.count as u32).filter(|&place| first[place as usize] != u32::MAX).collect();
-        let vertices: Vec<u32> = places.iter().map(|&place| first[place as usize]).collect();
-        let mut index_of = vec![u32::MAX; weld.count];
-        for (index, &place) in places.iter().enumerate() {
-            index_of[place as usize] = index as u32;
-        }
+        let placed = |&vertex: &u32| (weld.representative[vertex as usize], vertex);
+        let mut firsts = distinct(cloth.iter().flatten().map(placed));
+        firsts.dedup_by_key(|&mut (place, _)| place);
+        let (places, vertices): (Vec<u32>, Vec<u32>) = firsts.into_iter().unzip();
+        let index_of = slots(weld.count, &places);
         let triangles: Vec<[u32; 3]> = cloth
             .iter()
             .map(|&corners| weld.triangle(corners).map(|place| index_of[place as usize]))
@@ -159,14 +152,14 @@ impl Worn {
         let around = neighbours(&triangles, &own);
         let of_body = body.iter().flatten().map(|&v| index_of[weld.representative[v as usize] as usize]);
         let is_sewn =
-            marked(places.len(), of_body.filter(|&index| index != u32::MAX).map(|index| index as usize));
+            marked(places.len(), of_body.filter(|&index| index != NONE).map(|index| index as usize));
         let points: Vec<DVec3> = vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
         let sheets = Surface::new(&points, &triangles);
         let reach = reach * figure.height();
         let find = |index: usize| {
             let p = points[index];
             let Some((closest, distance, _)) = outside.at(p, None) else {
-                return (f64::NAN, None, u32::MAX);
+                return (f64::NAN, None, NONE);
             };
             let nearest = closest.triangle as u32;
             if distance <= 0.0 {
@@ -208,12 +201,12 @@ impl Worn {
 fn lying_over(
     figure: &Figure,
     outside: &Outside,
-    triangles: Vec<[u32; 3]>,
+    mut triangles: Vec<[u32; 3]>,
     weld: &Weld,
     threads: usize,
 ) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
     let component = components(&triangles, weld);
-    let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize];
+    let of = |corners: &[u32; 3]| component[weld.representative[corners[0] as usize] as usize] as usize;
     let places = distinct(triangles.iter().flat_map(|&corners| weld.triangle(corners)));
     let first = weld.first_vertices();
     let reach = WORN_REACH * figure.height();
@@ -221,21 +214,15 @@ fn lying_over(
         let p = figure.positions[first[places[index] as usize] as usize];
         outside.at(p, None).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
     });
-    let count = component.iter().max().map_or(0, |&last| last as usize + 1);
-    let (mut all, mut over) = (vec![0u32; count], vec![0u32; count]);
+    let mut counts = vec![(0u32, 0u32); weld.count];
     for (&place, &lies) in places.iter().zip(&lies) {
-        let component = component[place as usize] as usize;
-        all[component] += 1;
-        over[component] += u32::from(lies);
+        let (all, over) = &mut counts[component[place as usize] as usize];
+        *all += 1;
+        *over += u32::from(lies);
     }
-    let mut by_component: Vec<Vec<[u32; 3]>> = vec![Vec::new(); count];
-    for corners in triangles {
-        by_component[of(&corners) as usize].push(corners);
-    }
-    let (mut worn, mut beside) = (Vec::new(), Vec::new());
-    for (component, triangles) in by_component.into_iter().enumerate() {
-        let is_worn = f64::from(over[component]) > WORN_SHARE * f64::from(all[component]);
-        if is_worn { &mut worn } else { &mut beside }.extend(triangles);
-    }
-    (worn, beside)
+    triangles.sort_by_key(of);
+    triangles.into_iter().partition(|corners| {
+        let (all, over) = counts[of(corners)];
+        f64::from(over) > WORN_SHARE * f64::from(all)
+    })
 }
