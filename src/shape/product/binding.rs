@@ -119,7 +119,7 @@ pub fn part_bindings(
     let members = members_of_components(figure, weld);
     let part = &mut progress.part(0.05, 0.8);
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
-    let Pieces { mut attachments, pieces, of_joints } =
+    let Pieces { mut attachments, pieces, of_joints, .. } =
         Pieces::of(figure, anatomy, skeleton, weld, &members, &head_only, &weights);
     for (vertex, attachment) in attachments.iter_mut().enumerate() {
         let share = figure.weight_of(vertex, |role| is_of_thumb(figure, role)) as f32;

@@ -4,7 +4,7 @@ use super::anatomy::{Anatomy, Limb};
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, marked, neighbours, outer};
+use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, marked, neighbours, outer, range};
 use crate::shape::figure::Figure;
 use glam::{DMat3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,20 +54,15 @@ pub struct Piece {
     pub weights: PartWeights,
 }
 
-impl Piece {
-    /// What `members` make up, one vertex at each place, for how often seams repeat one must not matter; held at `anchor`.
-    fn of(figure: &Figure, members: &[u32], anchor: DVec3, weights: PartWeights) -> Self {
-        let places = || members.iter().map(|&vertex| figure.positions[vertex as usize]);
-        let middle = places().sum::<DVec3>() / members.len() as f64;
-        let spread = places().map(|p| outer(p - middle, p - middle)).fold(DMat3::ZERO, |sum, one| sum + one);
-        let lowest = places().map(|p| p.y).fold(f64::INFINITY, f64::min);
-        Self { anchor, lowest, spread: spread * (1.0 / members.len() as f64), weights }
-    }
-}
-
-/// The pieces of a figure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pieces {
+/// The pieces of a figure, and what they are found by.
+pub struct Pieces<'a> {
+    figure: &'a Figure,
+    anatomy: &'a Anatomy,
+    skeleton: &'a Skeleton,
+    weld: &'a Weld,
+    members: &'a [Vec<u32>],
+    head_only: &'a [bool],
+    weights: &'a [PartWeights],
     /// One for each vertex.
     pub attachments: Vec<Attachment>,
     /// The pieces that [`Attachment::Piece`] speaks of.
@@ -76,53 +71,71 @@ pub struct Pieces {
     pub of_joints: Vec<Option<usize>>,
 }
 
-impl Pieces {
+impl<'a> Pieces<'a> {
     /// Finds the pieces of `figure`.
     ///
     /// - `members`: the vertices of each connected component. `head_only`: whether the head alone moves a vertex.
     /// - `weights`: each vertex's weights to the parts.
     pub fn of(
-        figure: &Figure,
-        anatomy: &Anatomy,
-        skeleton: &Skeleton,
-        weld: &Weld,
-        members: &[Vec<u32>],
-        head_only: &[bool],
-        weights: &[PartWeights],
+        figure: &'a Figure,
+        anatomy: &'a Anatomy,
+        skeleton: &'a Skeleton,
+        weld: &'a Weld,
+        members: &'a [Vec<u32>],
+        head_only: &'a [bool],
+        weights: &'a [PartWeights],
     ) -> Self {
         let mut pieces = Self {
+            figure,
+            anatomy,
+            skeleton,
+            weld,
+            members,
+            head_only,
+            weights,
             attachments: vec![Attachment::Plain; figure.positions.len()],
             pieces: Vec::new(),
             of_joints: Vec::new(),
         };
-        pieces.add_hats(figure, members, head_only);
-        pieces.add_carried(figure, skeleton, weld, members, head_only);
-        pieces.add_rigid(figure, anatomy, weld, members, head_only, weights);
-        pieces.add_small(figure, weld, members, head_only, weights);
+        pieces.add_hats();
+        pieces.add_carried();
+        pieces.add_rigid();
+        pieces.add_small();
         pieces
     }
 
-    /// Makes one piece of `members`.
-    fn add(&mut self, members: &[u32], piece: Piece) {
+    /// Makes one piece of `members`, of which `places` are one at each place, as how often seams repeat one must not matter; held
+    /// at `anchor`, which the parts move by `weights`.
+    fn add(&mut self, members: &[u32], places: &[u32], anchor: DVec3, weights: PartWeights) {
+        let positions = || places.iter().map(|&vertex| self.figure.positions[vertex as usize]);
+        let middle = positions().sum::<DVec3>() / places.len() as f64;
+        let spread =
+            positions().map(|p| outer(p - middle, p - middle)).fold(DMat3::ZERO, |sum, one| sum + one);
+        let lowest = positions().map(|p| p.y).fold(f64::INFINITY, f64::min);
+        let piece = Piece { anchor, lowest, spread: spread * (1.0 / places.len() as f64), weights };
         for &vertex in members {
             self.attachments[vertex as usize] = Attachment::Piece(self.pieces.len());
         }
         self.pieces.push(piece);
     }
 
-    fn is_plain(&self, vertex: u32) -> bool {
-        self.attachments[vertex as usize] == Attachment::Plain
+    /// True for what the head does not move alone and is no other piece.
+    fn is_loose(&self, vertex: u32) -> bool {
+        !self.head_only[vertex as usize] && self.attachments[vertex as usize] == Attachment::Plain
+    }
+
+    /// The least box around `members`.
+    fn bounds(&self, members: &[u32]) -> Bounds {
+        bounds(members.iter().map(|&vertex| self.figure.positions[vertex as usize]))
     }
 
     /// Hats and glasses take the face map as a whole.
-    fn add_hats(&mut self, figure: &Figure, members: &[Vec<u32>], head_only: &[bool]) {
-        for members in members {
-            if !members.iter().all(|&vertex| head_only[vertex as usize]) {
-                continue;
-            }
-            let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+    fn add_hats(&mut self) {
+        let is_of_head = |members: &&Vec<u32>| members.iter().all(|&vertex| self.head_only[vertex as usize]);
+        for members in self.members.iter().filter(is_of_head) {
+            let (low, high) = self.bounds(members);
             for &vertex in members {
-                if figure.kind(vertex as usize) == MeshKind::Accessory {
+                if self.figure.kind(vertex as usize) == MeshKind::Accessory {
                     self.attachments[vertex as usize] = Attachment::OnFace((low + high) / 2.0);
                 }
             }
@@ -131,58 +144,44 @@ impl Pieces {
 
     /// Things carried on the body (a bag, a machine arm, a tail of plates): what hangs from one joint without a role and is
     /// made of rigid components for the greater part keeps its shape as one.
-    fn add_carried(
-        &mut self,
-        figure: &Figure,
-        skeleton: &Skeleton,
-        weld: &Weld,
-        members: &[Vec<u32>],
-        head_only: &[bool],
-    ) {
+    fn add_carried(&mut self) {
+        let Self { figure, skeleton, weld, members, head_only, .. } = *self;
         let joint_count = figure.joints.len();
         let top = uppermost_without_role(figure, skeleton);
         let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
-        let mut rigid_count = vec![0usize; joint_count];
-        let mut whole_count = vec![0usize; joint_count];
+        // How many more of the vertices that hang from each are of rigid components than are not.
+        let mut rigid_majority = vec![0i64; joint_count];
         let mut carried: Vec<Vec<u32>> = vec![Vec::new(); joint_count];
-        for members in members.iter().filter(|members| !members.is_empty()) {
+        for members in members {
             let first = main(members[0]);
             let rigid = members
                 .iter()
                 .all(|&vertex| main(vertex) == first && figure.main_weight[vertex as usize] > RIGID_WEIGHT);
             let top_of = |vertex: u32| main(vertex).and_then(|joint| top[joint]);
-            let first_top = top_of(members[0]);
-            for &vertex in members {
-                if let Some(top) = top_of(vertex) {
-                    whole_count[top] += 1;
-                    rigid_count[top] += usize::from(rigid);
-                }
+            for top in members.iter().filter_map(|&vertex| top_of(vertex)) {
+                rigid_majority[top] += if rigid { 1 } else { -1 };
             }
             // What goes over into the body may be a strand.
-            if let Some(first_top) = first_top
-                && members
-                    .iter()
-                    .all(|&vertex| top_of(vertex) == Some(first_top) && !head_only[vertex as usize])
-            {
+            let first_top = top_of(members[0]);
+            let is_whole = |&vertex: &u32| top_of(vertex) == first_top && !head_only[vertex as usize];
+            if let Some(first_top) = first_top.filter(|_| members.iter().all(is_whole)) {
                 carried[first_top].extend(members);
             }
         }
         let mut piece_of_top = vec![None; joint_count];
         for joint in 0..joint_count {
-            if carried[joint].is_empty() || 2 * rigid_count[joint] < whole_count[joint] {
+            if carried[joint].is_empty() || rigid_majority[joint] < 0 {
                 continue;
             }
             // The body carries the piece at its own joint; the part it folds into moves that point.
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             piece_of_top[joint] = Some(self.pieces.len());
             let places = once(weld, &carried[joint]);
-            let piece = Piece::of(figure, &places, figure.joints[joint], Part::of(role).alone());
-            self.add(&carried[joint], piece);
+            self.add(&carried[joint], &places, figure.joints[joint], Part::of(role).alone());
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
         let piece_of = |vertex: u32| main(vertex).and_then(|joint| self.of_joints[joint]);
-        let strands =
-            strands(members, &piece_of, |vertex| head_only[vertex as usize] || !self.is_plain(vertex));
+        let strands = strands(members, &piece_of, |vertex| self.is_loose(vertex));
         if strands.is_empty() {
             return;
         }
@@ -198,64 +197,38 @@ impl Pieces {
 
     /// Bags, swords, plates that hang rigidly from the body: components whose boxes touch and whose weights are the same keep
     /// their shape as one, held where they are nearest to the body.
-    fn add_rigid(
-        &mut self,
-        figure: &Figure,
-        anatomy: &Anatomy,
-        weld: &Weld,
-        members: &[Vec<u32>],
-        head_only: &[bool],
-        weights: &[PartWeights],
-    ) {
-        let things = self.rigid(figure, anatomy, members, head_only);
+    fn add_rigid(&mut self) {
+        let figure = self.figure;
+        let things = self.rigid();
         if things.is_empty() {
             return;
         }
-        let mut is_of_body: Vec<bool> =
-            (0..figure.positions.len()).map(|vertex| figure.kind(vertex) != MeshKind::Accessory).collect();
-        things.iter().flatten().for_each(|&vertex| is_of_body[vertex as usize] = false);
-        let body: Vec<DVec3> = figure
-            .positions
-            .iter()
-            .zip(is_of_body)
-            .filter(|(_, is_of_body)| *is_of_body)
-            .map(|(&p, _)| p)
-            .collect();
+        let count = figure.positions.len();
+        let is_of_thing = marked(count, things.iter().flatten().map(|&vertex| vertex as usize));
+        let is_of_body = |&vertex: &usize| !is_of_thing[vertex] && figure.kind(vertex) != MeshKind::Accessory;
+        let body: Vec<DVec3> = (0..count).filter(is_of_body).map(|vertex| figure.positions[vertex]).collect();
         let tree = PointTree::new(&body);
         let mut near = Vec::new();
         let place = |vertex: u32| figure.positions[vertex as usize];
         for all in things {
-            let whole = once(weld, &all);
-            let distances: Vec<f64> = whole
-                .iter()
-                .map(|&vertex| {
-                    tree.nearest(place(vertex), 1, f64::INFINITY, &mut near);
-                    near.first().map_or(0.0, |near| near.distance())
-                })
-                .collect();
-            let least = distances.iter().copied().fold(f64::INFINITY, f64::min) + TOUCHING * figure.height();
-            let held: Vec<u32> = whole
-                .iter()
-                .zip(&distances)
-                .filter(|&(_, &distance)| distance <= least)
-                .map(|(&vertex, _)| vertex)
-                .collect();
+            let places = once(self.weld, &all);
+            let mut distance = |vertex: u32| {
+                tree.nearest(place(vertex), 1, f64::INFINITY, &mut near);
+                near.first().map_or(0.0, |near| near.distance())
+            };
+            let away: Vec<(u32, f64)> = places.iter().map(|&vertex| (vertex, distance(vertex))).collect();
+            let (least, _) = range(away.iter().map(|&(_, distance)| distance));
+            let is_held = |&&(_, distance): &&(u32, f64)| distance <= least + TOUCHING * figure.height();
+            let held: Vec<u32> = away.iter().filter(is_held).map(|&(vertex, _)| vertex).collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
-            let piece = Piece::of(figure, &whole, anchor, mean_weights(weights, &held));
-            self.add(&all, piece);
+            self.add(&all, &places, anchor, mean_weights(self.weights, &held));
         }
     }
 
     /// The vertices of each thing that is made of rigid components which touch and weigh the same: of accessories, and of what
     /// lies beside the bones of a body that bends.
-    fn rigid(
-        &self,
-        figure: &Figure,
-        anatomy: &Anatomy,
-        members: &[Vec<u32>],
-        head_only: &[bool],
-    ) -> Vec<Vec<u32>> {
-        let is_loose = |vertex: u32| !head_only[vertex as usize] && self.is_plain(vertex);
+    fn rigid(&self) -> Vec<Vec<u32>> {
+        let Self { figure, members, .. } = *self;
         let row = |vertex: u32| &figure.role_weights[vertex as usize];
         let is_rigid = |members: &[u32]| members.iter().all(|&vertex| row(vertex) == row(members[0]));
         let all_of = |members: &[u32], kind: MeshKind| {
@@ -264,12 +237,10 @@ impl Pieces {
         let bends = members.iter().max_by_key(|members| members.len()).is_some_and(|most| !is_rigid(most));
         let is_thing = |members: &&Vec<u32>| {
             members.len() >= 3
-                && members.iter().all(|&vertex| is_loose(vertex))
+                && members.iter().all(|&vertex| self.is_loose(vertex))
                 && is_rigid(members)
                 && (all_of(members, MeshKind::Accessory)
-                    || bends
-                        && all_of(members, MeshKind::Body)
-                        && lies_beside_bones(figure, anatomy, members))
+                    || bends && all_of(members, MeshKind::Body) && self.lies_beside_bones(members))
         };
         let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
         let is_alike = |one: usize, other: usize| row(components[one][0]) == row(components[other][0]);
@@ -277,27 +248,36 @@ impl Pieces {
     }
 
     /// Buttons, buckles, badges: small loose components keep their shape.
-    fn add_small(
-        &mut self,
-        figure: &Figure,
-        weld: &Weld,
-        members: &[Vec<u32>],
-        head_only: &[bool],
-        weights: &[PartWeights],
-    ) {
-        let limit = SMALL_PIECE * figure.height();
-        for members in members.iter().filter(|members| members.len() >= 3) {
-            if members.iter().any(|&vertex| head_only[vertex as usize] || !self.is_plain(vertex)) {
+    fn add_small(&mut self) {
+        let limit = SMALL_PIECE * self.figure.height();
+        for members in self.members.iter().filter(|members| members.len() >= 3) {
+            let (low, high) = self.bounds(members);
+            if (high - low).max_element() > limit || !members.iter().all(|&vertex| self.is_loose(vertex)) {
                 continue;
             }
-            let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
-            if (high - low).max_element() > limit {
-                continue;
-            }
-            let places = once(weld, members);
-            let piece = Piece::of(figure, &places, (low + high) / 2.0, mean_weights(weights, &places));
-            self.add(members, piece);
+            let places = once(self.weld, members);
+            self.add(members, &places, (low + high) / 2.0, mean_weights(self.weights, &places));
         }
+    }
+
+    /// True for what trunk or limbs move and their bones do not pass.
+    fn lies_beside_bones(&self, members: &[u32]) -> bool {
+        let Self { figure, anatomy, .. } = self;
+        let joint = figure.main_joint[members[0] as usize];
+        let Some(role) = joint.and_then(|joint| figure.joint_roles[joint as usize]) else { return false };
+        let (low, high) = self.bounds(members);
+        let middle = (low + high) / 2.0;
+        let part = Part::of(role);
+        let on_bone = |limb: &Limb| match limb.parts.iter().position(|&of_limb| of_limb == part as usize) {
+            Some(0) => Some(foot(middle, limb.root, limb.middle).0),
+            Some(1) => Some(foot(middle, limb.middle, limb.end).0),
+            _ => None,
+        };
+        let near = match part {
+            Part::Torso => Some(DVec3::new(anatomy.middle_x, middle.y, anatomy.centre_z(middle.y).0)),
+            _ => anatomy.limbs.iter().find_map(on_bone),
+        };
+        near.is_some_and(|near| near.clamp(low, high) != near)
     }
 }
 
@@ -322,31 +302,12 @@ pub(super) fn touching(
     things.into_values().collect()
 }
 
-/// True for what trunk or limbs move and their bones do not pass.
-fn lies_beside_bones(figure: &Figure, anatomy: &Anatomy, members: &[u32]) -> bool {
-    let joint = figure.main_joint[members[0] as usize];
-    let Some(role) = joint.and_then(|joint| figure.joint_roles[joint as usize]) else { return false };
-    let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
-    let middle = (low + high) / 2.0;
-    let part = Part::of(role) as usize;
-    let on_bone = |limb: &Limb| match limb.parts.iter().position(|&of_limb| of_limb == part) {
-        Some(0) => Some(foot(middle, limb.root, limb.middle).0),
-        Some(1) => Some(foot(middle, limb.middle, limb.end).0),
-        _ => None,
-    };
-    let near = match Part::of(role) {
-        Part::Torso => Some(DVec3::new(anatomy.middle_x, middle.y, anatomy.centre_z(middle.y).0)),
-        _ => anatomy.limbs.iter().find_map(on_bone),
-    };
-    near.is_some_and(|near| near.clamp(low, high) != near)
-}
-
 /// Components that lead from the body to a piece, with the piece: most of their vertices are moved by the piece's joints, and
 /// not all. A strap that the body holds for the greater part stays with the body.
 fn strands<'a>(
     members: &'a [Vec<u32>],
     piece_of: &impl Fn(u32) -> Option<usize>,
-    is_taken: impl Fn(u32) -> bool,
+    is_loose: impl Fn(u32) -> bool,
 ) -> Vec<(usize, &'a Vec<u32>)> {
     let mut found = Vec::new();
     for members in members {
@@ -358,7 +319,7 @@ fn strands<'a>(
         if let Some((piece, count)) = most
             && 2 * count > members.len()
             && count < members.len()
-            && !members.iter().any(|&vertex| is_taken(vertex))
+            && members.iter().all(|&vertex| is_loose(vertex))
         {
             found.push((piece, members));
         }
