@@ -2,7 +2,7 @@
 
 use super::anatomy::Proportions;
 use super::binding::PartBindings;
-use super::coefficients::{Goal, Limits, heads_of, lost, part_coefficients};
+use super::coefficients::{Goal, Limits, lost, part_coefficients};
 use super::field::PartField;
 use super::groups::PartGroups;
 use super::landmarks::{HeadPlacement, HeadSources};
@@ -45,19 +45,18 @@ pub fn body(
 ) -> Result<Body> {
     let anatomy = &measured.anatomy;
     let head_length = anatomy.proportions.head_length;
-    let head_ratio = match style {
-        Style::Heads(_) => 1.0,
-        Style::Shape(shape) => options.head_scale * head_length / proportions_of(shape)?.head_length,
+    let (wanted, head_ratio) = match style {
+        Style::Heads(heads) => (*heads, 1.0),
+        Style::Shape(shape) => {
+            let proportions = proportions_of(shape)?;
+            (proportions.heads(), options.head_scale * head_length / proportions.head_length)
+        }
     };
     let roles = measured.joints.keys().copied().collect();
     let (groups, split) = PartGroups::of(&roles, &options.bone_groups);
     let mut warnings = anatomy.warnings();
     warnings.extend(split);
     warnings.extend(hair_shortened(&product.parts, head_length));
-    let wanted = match style {
-        Style::Heads(heads) => *heads,
-        Style::Shape(shape) => proportions_of(shape)?.heads(),
-    };
     // Nobody gets more heads than there are, and what has as few keeps its proportions.
     let own = anatomy.proportions.heads();
     let limbs = (options.limits && anatomy.landmarks.trunk.is_some()).then(|| limbs_of(style)).flatten();
@@ -75,9 +74,11 @@ pub fn body(
     }
     let limbs = limbs.as_ref();
     let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
-    let (Attempt { field, coefficients, heads, .. }, of_field, heads_left) =
-        request.best(&mut progress.part(0.0, 0.5))?;
-    warnings.extend(of_field);
+    let best = request.best(&mut progress.part(0.0, 0.5))?;
+    warnings.extend(best.limits.warnings(best.measured, asked));
+    let heads_left = request.heads_left(&best);
+    let Attempt { field, coefficients, limited, heads, .. } = best;
+    warnings.extend(limited);
     progress.at(0.5)?;
     let placed =
         Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
@@ -148,8 +149,6 @@ struct Attempt {
     /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
     /// that of its parts' lengths.
     error: f64,
-    /// The same of the one measured.
-    misread: f64,
 }
 
 /// What is asked for, of whom.
@@ -169,30 +168,27 @@ struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// The field, its warnings, and one of a head count that is not the one asked for.
-    fn best(&self, progress: &mut Progress) -> Result<(Attempt, Vec<Warning>, Option<Warning>)> {
-        let asked = self.asked;
-        let mut best = self.best_of(progress)?;
-        let Attempt { misread, measured, .. } = best;
-        let mut warnings = best.limits.warnings(measured, asked);
-        warnings.extend(best.limited.take());
-        let is_missed = self.lost > 0.0 && misread > HEADS_WARNED_ABOVE && !best.limits.act_on_heads();
-        let heads_left = is_missed.then(|| {
+    /// A warning of a head count measured on the `best` field that is not the one asked for.
+    fn heads_left(&self, best: &Attempt) -> Option<Warning> {
+        let &Attempt { measured, heads, .. } = best;
+        let is_misread = (measured / heads).ln().abs() > HEADS_WARNED_ABOVE;
+        let is_missed = self.lost > 0.0 && is_misread && !best.limits.act_on_heads();
+        is_missed.then(|| {
             let why = if self.options.groups.values().any(|group| group.length_scale.is_some()) {
                 "the lengths set for groups leave no other"
             } else {
                 "its chin or crown reads differently from the target's"
             };
+            let asked = self.asked;
             let message =
                 format!("{measured:.2} heads are measured on the result instead of {asked:.2}: {why}");
             Warning::new("heads_limited", message)
-        });
-        Ok((best, warnings, heads_left))
+        })
     }
 
     /// The better of two fields: one that aims at as many heads as are asked for, and, where that misses them, one that aims as
     /// much further. What that leaves is less than the row of rays that a chin is read by.
-    fn best_of(&self, progress: &mut Progress) -> Result<Attempt> {
+    fn best(&self, progress: &mut Progress) -> Result<Attempt> {
         let profile = profile_of(self.style, self.options, self.lost);
         let first = self.attempt(self.asked, profile.as_ref())?;
         if first.error <= HEADS_TOLERANCE || first.limits.act_on_heads() || self.lost == 0.0 {
@@ -229,7 +225,6 @@ impl Request<'_> {
             let chart = &product.chart;
             chart.slices(&parts, wanted, &strengths(*share, options, groups, chart.frame()))
         });
-        let reached = heads_of(&anatomy.proportions, &scales);
         let coefficients = slices.as_ref().map_or(scales, |slices| slices.coefficients);
         let limited = slices.as_ref().and_then(Slices::limited);
         let field = parts.with(slices, &product.parts.pieces);
@@ -238,12 +233,11 @@ impl Request<'_> {
         let positions = placement.vertices(&heads.vertices);
         let joint = |joint| placement.joint(joint);
         let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
-        let wanted = if limits.act_on_heads() { reached } else { asked };
-        let off = |heads: f64| (heads / wanted).ln().abs();
+        let heads = if limits.act_on_heads() { limits.heads } else { asked };
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
-        let error = off(if anatomy.landmarks.chin_seen { measured } else { reached });
-        let misread = off(measured);
-        Ok(Attempt { field, coefficients, limits, limited, heads: wanted, measured, error, misread })
+        let read = if anatomy.landmarks.chin_seen { measured } else { limits.heads };
+        let error = (read / heads).ln().abs();
+        Ok(Attempt { field, coefficients, limits, limited, heads, measured, error })
     }
 }

@@ -62,12 +62,20 @@ pub enum Goal<'a> {
     Limbs(&'a Proportions),
 }
 
-impl Goal<'_> {
+impl<'a> Goal<'a> {
     /// How many heads tall the result should be.
     pub fn heads(&self) -> f64 {
         match self {
             Goal::Heads(heads) => *heads,
             Goal::Reference(reference) | Goal::Limbs(reference) => reference.heads(),
+        }
+    }
+
+    /// What it should be like.
+    fn reference(&self) -> Option<&'a Proportions> {
+        match self {
+            Goal::Heads(_) => None,
+            Goal::Reference(reference) | Goal::Limbs(reference) => Some(reference),
         }
     }
 }
@@ -175,7 +183,8 @@ impl Asked {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     acted: Vec<Bounded>,
-    heads: f64,
+    /// How many heads tall the figure becomes, by the lengths of its parts.
+    pub heads: f64,
     asked: f64,
 }
 
@@ -257,23 +266,15 @@ fn short_limbs(target: &Proportions, reference: &Proportions) -> PartCoefficient
 
 /// How much more a head grows in width than in height: as the style's is wider for its length, up to [`HEAD_WIDTH`].
 fn wider(target: &Proportions, goal: Goal) -> f64 {
-    let wanted = match goal {
-        Goal::Reference(reference) | Goal::Limbs(reference) => reference.head_width(),
-        Goal::Heads(_) => CHILD_SKULL,
-    };
+    let wanted = goal.reference().map_or(CHILD_SKULL, Proportions::head_width);
     (wanted / target.head_width()).clamp(1.0, HEAD_WIDTH)
 }
 
 /// The same in depth, up to [`HEAD_DEPTH`].
 fn deeper(target: &Proportions, goal: Goal) -> f64 {
-    let wanted = match goal {
-        Goal::Reference(reference) | Goal::Limbs(reference) => reference.head_depth(),
-        Goal::Heads(_) => Some(CHILD_SKULL_DEPTH),
-    };
-    match (wanted, target.head_depth()) {
-        (Some(wanted), Some(own)) => (wanted / own).clamp(1.0, HEAD_DEPTH),
-        _ => HEAD_DEPTH,
-    }
+    let wanted = goal.reference().map_or(Some(CHILD_SKULL_DEPTH), Proportions::head_depth);
+    let grows = wanted.zip(target.head_depth()).map(|(wanted, own)| wanted / own);
+    grows.map_or(HEAD_DEPTH, |grows| grows.clamp(1.0, HEAD_DEPTH))
 }
 
 /// The scales found so far, part after part; the order is that of the warnings.
@@ -323,14 +324,12 @@ impl<'a> Solver<'a> {
 
     fn asked(&self) -> Asked {
         let of_heads = |trunk: f64| Asked::of_heads(self.target, self.goal.heads(), self.head, trunk);
-        match self.goal {
-            Goal::Reference(reference) | Goal::Limbs(reference) => {
-                let width_factor = self.scales.head.width / self.head_scale;
-                let style = Asked::of_reference(self.target, reference, self.head, width_factor);
-                of_heads(1.0).towards(style, self.lost)
-            }
-            Goal::Heads(_) => of_heads(1.0 + self.lost * (TRUNK_FOR_HEADS - 1.0)),
-        }
+        let Some(reference) = self.goal.reference() else {
+            return of_heads(1.0 + self.lost * (TRUNK_FOR_HEADS - 1.0));
+        };
+        let width_factor = self.scales.head.width / self.head_scale;
+        let style = Asked::of_reference(self.target, reference, self.head, width_factor);
+        of_heads(1.0).towards(style, self.lost)
     }
 
     /// From what a part has without a style to what the style gives it.

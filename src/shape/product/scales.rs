@@ -108,19 +108,13 @@ impl PartCoefficients {
     }
 
     /// The same lengths; every thickness as it was (Fig. 6b).
-    pub fn lengths_only(self) -> Self {
-        let long = |scale: Scale| Scale { thickness: 1.0, ..scale };
-        Self {
-            neck: long(self.neck),
-            torso: long(self.torso),
-            shoulder_spread: 1.0,
-            hip_spread: 1.0,
-            upper_arm: long(self.upper_arm),
-            lower_arm: long(self.lower_arm),
-            upper_leg: long(self.upper_leg),
-            lower_leg: long(self.lower_leg),
-            ..self
+    pub fn lengths_only(mut self) -> Self {
+        let Self { neck, torso, upper_arm, lower_arm, upper_leg, lower_leg, .. } = &mut self;
+        for scale in [neck, torso, upper_arm, lower_arm, upper_leg, lower_leg] {
+            scale.thickness = 1.0;
         }
+        (self.shoulder_spread, self.hip_spread) = (1.0, 1.0);
+        self
     }
 
     /// Puts a user's settings in place of what was found.
