@@ -19,6 +19,11 @@ pub struct Weld {
 }
 
 impl Weld {
+    /// Of `count` vertices of which no two are one.
+    pub fn alone(count: usize) -> Self {
+        Self { representative: (0..count as u32).collect(), count }
+    }
+
     /// For each welded vertex the first vertex that belongs to it.
     pub fn first_vertices(&self) -> Vec<u32> {
         let mut first = Vec::with_capacity(self.count);

@@ -417,8 +417,7 @@ impl Components {
     fn of(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
         let triangles: Vec<[u32; 3]> =
             triangles.filter(|corners| has_area(corners.map(|vertex| points[vertex as usize]))).collect();
-        let alone = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
-        let mut components = components(&triangles, &alone);
+        let mut components = components(&triangles, &Weld::alone(points.len()));
         // Loose vertices are components as well there; here only triangles make one.
         let mut numbers = vec![NONE; points.len()];
         let mut count = 0;

@@ -184,7 +184,7 @@ struct Joined {
 
 impl Joined {
     fn new(points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let single = Weld { representative: (0..points.len() as u32).collect(), count: points.len() };
+        let single = Weld::alone(points.len());
         let component = components(triangles, &single);
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
         let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));

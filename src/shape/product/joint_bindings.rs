@@ -1,7 +1,7 @@
 //! How joints without a role of their own are attached: as the mesh that they move (product mode).
 
 use super::binding::PartBinding;
-use super::part::{PART_COUNT, Part, add};
+use super::part::{PART_COUNT, Part};
 use super::pieces::Attachment;
 use crate::character::{Character, Role};
 use crate::face::stage::FaceBinding;
@@ -15,6 +15,21 @@ const NEAR: f64 = 0.01;
 
 /// A piece's share beyond this is all, and below what is left of 1 none.
 const WHOLE: f32 = 0.999;
+
+/// Each vertex that has weights, and the joints that move it.
+pub fn weight_rows<'a>(
+    character: &'a Character,
+    figure: &'a Figure,
+) -> impl Iterator<Item = (usize, &'a [(u32, f32)])> {
+    let meshes = character.meshes.iter().zip(&figure.mesh_starts);
+    meshes.flat_map(|(mesh, &start)| (start..).zip(mesh.weights.rows()))
+}
+
+/// How much `vertex` counts for `joint`: 1 where that stands, the less the further away, and within `near` nearly alike.
+pub fn nearness(figure: &Figure, vertex: usize, joint: usize, near: f64) -> f64 {
+    let away = figure.positions[vertex].distance_squared(figure.joints[joint]) + near * near;
+    (near * near / away).powi(2)
+}
 
 /// For each joint the mean binding of the vertices that it moves, the nearest first; none for joints that play a role, hang
 /// from the head, or move nothing.
@@ -30,16 +45,12 @@ pub fn mean_bindings(
     let mut means: Vec<Mean> = figure.joints.iter().map(|_| Mean::default()).collect();
     let own_role = marked(figure.joints.len(), figure.humanoid.iter().map(|(_, joint)| joint));
     let near = NEAR * figure.height();
-    for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
-        for (vertex, row) in mesh.weights.rows().enumerate() {
-            let vertex = start + vertex;
-            for &(joint, weight) in row {
-                let joint = joint as usize;
-                if own_role[joint] || weight <= 0.0 {
-                    continue;
-                }
-                let away = figure.positions[vertex].distance_squared(figure.joints[joint]) + near * near;
-                means[joint].add(&vertices[vertex], f64::from(weight) * (near * near / away).powi(2));
+    for (vertex, row) in weight_rows(character, figure) {
+        for &(joint, weight) in row {
+            let joint = joint as usize;
+            if !own_role[joint] && weight > 0.0 {
+                let nearness = nearness(figure, vertex, joint, near);
+                means[joint].add(&vertices[vertex], f64::from(weight) * nearness);
             }
         }
     }
@@ -116,8 +127,7 @@ impl Mean {
         if !(self.total > 0.0 && self.total.is_finite()) {
             return None;
         }
-        let mut weights = [0.0; PART_COUNT];
-        add(&mut weights, &self.parts.map(|sum| (sum / self.total) as f32), 1.0);
+        let weights = self.parts.map(|sum| (sum / self.total) as f32);
         // A joint goes with one piece: the one that most of its mesh goes with.
         let most = self.pieces.iter().max_by(|one, other| one.1.total_cmp(other.1));
         let attachment = match most.map(|(&piece, &sum)| (piece, (sum / self.total) as f32)) {

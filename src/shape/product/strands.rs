@@ -3,6 +3,7 @@
 //! All is found by sums over places and their links, so that no last digit decides anything.
 
 use super::head::head_frame;
+use super::joint_bindings::{nearness, weight_rows};
 use super::outside::volume;
 use super::part::Part;
 use super::parting::sides;
@@ -11,7 +12,9 @@ use super::worn::Worn;
 use crate::character::Character;
 use crate::face::head::HeadFrame;
 use crate::geometry::laplacian::Cholesky;
-use crate::geometry::{Groups, NONE, PointTree, Surface, Weld, bounds, marked, range, smoothstep};
+use crate::geometry::{
+    Groups, NONE, PointTree, Surface, Weld, bounds, components, marked, range, slots, smoothstep,
+};
 use crate::parallel;
 use crate::shape::Measured;
 use crate::shape::field::Binding;
@@ -89,7 +92,9 @@ pub struct Strands {
     small: Vec<(Vec<u32>, f64)>,
     /// How firmly the head holds each place.
     held: Vec<f64>,
-    /// The number of each place that is not all held.
+    /// The places that are not all held.
+    free: Vec<u32>,
+    /// The number of each place among these.
     numbers: Vec<u32>,
     factor: Cholesky,
 }
@@ -116,14 +121,13 @@ impl Strands {
                 bindings[vertex].parts().is_some_and(|parts| parts.attachment == Attachment::Plain);
             is_plain && bindings[vertex].arms_weight() < ARMS && !figure.is_carried(vertex)
         };
-        let body: Vec<[u32; 3]> = figure.triangles_where(is_body);
-        let body: Vec<[u32; 3]> =
-            body.into_iter().filter(|corners| corners.iter().any(|&v| !is_hair(v as usize))).collect();
+        let mut body = figure.triangles_where(is_body);
+        body.retain(|corners| corners.iter().any(|&vertex| !is_hair(vertex as usize)));
         let outwards = if volume(&figure.positions, &body) < 0.0 { -1.0 } else { 1.0 };
         let mut worn = Worn::over(figure, body, outwards, hair, 0.0, weld, threads);
         let points: Vec<DVec3> =
             worn.vertices.iter().map(|&vertex| frame.to_unit(figure.positions[vertex as usize])).collect();
-        let pieces = pieces(&worn);
+        let pieces = components(&worn.triangles, &Weld::alone(points.len()));
         let links = links(&worn, &points, &pieces);
         let highest = points.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
         let shift = (highest - 2.0 * (HELD.1 - HELD.0)).min(HELD.0) - HELD.0;
@@ -142,6 +146,7 @@ impl Strands {
             along: Vec::new(),
             small: Vec::new(),
             factor: Cholesky::new(&[], &[]).expect("nothing is definite"),
+            free: Vec::new(),
             numbers: Vec::new(),
             worn,
             frame,
@@ -172,7 +177,7 @@ impl Strands {
     /// A displacement of all places that differs along links as much as `wanted`, on the whole, and is `at` where the head holds
     /// hair.
     pub fn solve(&self, wanted: impl Fn(&Link) -> DVec3, at: &[DVec3]) -> Vec<DVec3> {
-        let size = self.factor_size();
+        let size = self.free.len();
         let mut columns = vec![0.0; 3 * size];
         let mut add = |place: u32, value: DVec3| {
             let number = self.numbers[place as usize];
@@ -194,12 +199,10 @@ impl Strands {
             add(place, held * at);
         }
         self.factor.solve(&mut columns, 3);
-        let mut all: Vec<DVec3> = (self.numbers.iter().zip(at))
-            .map(|(&number, &at)| {
-                let value = |axis: usize| columns[axis * size + number as usize];
-                if number == NONE { at } else { DVec3::new(value(0), value(1), value(2)) }
-            })
-            .collect();
+        let mut all = at.to_vec();
+        for (number, &place) in self.free.iter().enumerate() {
+            all[place as usize] = [0, 1, 2].map(|axis| columns[axis * size + number]).into();
+        }
         for (places, share) in &self.small {
             let mean = places.iter().map(|&place| all[place as usize]).sum::<DVec3>() / places.len() as f64;
             places.iter().for_each(|&place| {
@@ -217,20 +220,11 @@ impl Strands {
         }
     }
 
-    fn factor_size(&self) -> usize {
-        self.numbers.iter().filter(|&&number| number != NONE).count()
-    }
-
     /// Numbers what is not all held, and factors what holds it together.
     fn factor(&mut self) -> Option<()> {
-        let mut next = 0;
-        self.numbers = (self.held.iter())
-            .map(|&held| {
-                let number = if held < 1.0 { next } else { NONE };
-                next += u32::from(held < 1.0);
-                number
-            })
-            .collect();
+        let places = 0..self.points.len() as u32;
+        self.free = places.filter(|&place| self.held[place as usize] < 1.0).collect();
+        self.numbers = slots(self.points.len(), &self.free);
         let mut diagonal = vec![0.0; self.points.len()];
         for link in &self.links {
             link.ends.iter().for_each(|&place| diagonal[place as usize] += link.weight);
@@ -238,9 +232,8 @@ impl Strands {
         for (held, &diagonal) in self.held.iter_mut().zip(&diagonal) {
             *held = (HELD_BY.0 * *held * *held + HELD_BY.1) * diagonal.max(1.0);
         }
-        let is_free = |place: &usize| self.numbers[*place] != NONE;
-        let diagonal: Vec<f64> =
-            (0..diagonal.len()).filter(is_free).map(|place| diagonal[place] + self.held[place]).collect();
+        let free = self.free.iter().map(|&place| place as usize);
+        let diagonal: Vec<f64> = free.map(|place| diagonal[place] + self.held[place]).collect();
         self.factor = Cholesky::new(&diagonal, &self.lower(1.0))?;
         Some(())
     }
@@ -283,7 +276,7 @@ impl Strands {
     /// Finds which way hair runs, as the mean over the thickness of a lock of how it would drain to where the head holds it; and
     /// evens out tips and what lies on the body.
     fn look_along(&mut self) -> Option<()> {
-        let size = self.factor_size();
+        let size = self.free.len();
         let mut drained = vec![1.0; size];
         self.factor.solve(&mut drained, 1);
         let at = |place: u32| {
@@ -304,8 +297,7 @@ impl Strands {
                 firmness[place] += if is_free { spread * link.weight } else { 0.0 };
             }
         }
-        let is_free = |place: &usize| self.numbers[*place] != NONE;
-        let free: Vec<usize> = (0..self.points.len()).filter(is_free).collect();
+        let free: Vec<usize> = self.free.iter().map(|&place| place as usize).collect();
         let mass = |place: usize| mass[place].max(SHORTEST * SHORTEST);
         let diagonal: Vec<f64> = free.iter().map(|&place| mass(place) + firmness[place]).collect();
         let even = Cholesky::new(&diagonal, &self.lower(spread))?;
@@ -333,19 +325,17 @@ impl Strands {
         // A mean that is nearly the greatest, and does not jump from lock to lock.
         let power = |p: &DVec3| DVec3::from((*p - axis).to_array().map(|along| along.powi(OUTER)));
         let powers: Vec<DVec3> = self.points.iter().map(power).collect();
-        let reach = |weight: &dyn Fn(usize, f64) -> f64| {
+        let near = |y: f64, row: usize| (-0.5 * ((y - height(row)) / (2.0 * ROW)).powi(2)).exp();
+        let reach = |row: usize| {
             let (mut sum, mut total) = (DVec3::ZERO, 0.0);
-            for (place, (p, &power)) in self.points.iter().zip(&powers).enumerate() {
-                let weight = weight(place, p.y);
+            for ((p, &lies), &power) in self.points.iter().zip(&self.lies).zip(&powers) {
+                let weight = near(p.y, row) * lies.max(smoothstep(p.y / ON_BODY.0));
                 sum += weight * power;
                 total += weight;
             }
             (sum / total.max(f64::MIN_POSITIVE)).powf(f64::from(OUTER).recip())
         };
-        let near = |y: f64, row: usize| (-0.5 * ((y - height(row)) / (2.0 * ROW)).powi(2)).exp();
-        let reaches: Vec<DVec3> = (0..rows)
-            .map(|row| reach(&|place, y| near(y, row) * self.lies[place].max(smoothstep(y / ON_BODY.0))))
-            .collect();
+        let reaches: Vec<DVec3> = (0..rows).map(reach).collect();
         let of_head = (0..rows).filter(|&row| height(row) >= 0.0).map(|row| reaches[row]);
         let on_head = of_head.fold(DVec3::splat(f64::MIN_POSITIVE), DVec3::max);
         let shares: Vec<DVec3> =
@@ -385,16 +375,6 @@ impl Strands {
             link.stiff = stiff[link.ends[0] as usize];
         }
     }
-}
-
-/// The least place of each place's connected piece.
-fn pieces(worn: &Worn) -> Vec<u32> {
-    let mut groups = Groups::new(worn.places.len());
-    for &[a, b, c] in &worn.triangles {
-        groups.join(a as usize, b as usize);
-        groups.join(b as usize, c as usize);
-    }
-    (0..worn.places.len()).map(|place| groups.least(place) as u32).collect()
 }
 
 /// What hangs on what: along edges, and beside each other where pieces are near.
@@ -508,17 +488,14 @@ fn joints(
         below.parent.into_iter().for_each(|parent| beside[parent].push(joint));
     }
     let mut of: Vec<Vec<(u32, f64)>> = vec![Vec::new(); skeleton.joints.len()];
-    for (mesh, &start) in character.meshes.iter().zip(&figure.mesh_starts) {
-        for (vertex, row) in mesh.weights.rows().enumerate() {
-            let vertex = start + vertex;
-            let share = f64::from(bindings[vertex].weight(Part::Hair));
-            let Ok(place) = worn.places.binary_search(&weld.representative[vertex]) else { continue };
-            for &(moving, weight) in row.iter().filter(|entry| share > 0.0 && entry.1 > 0.0) {
-                let beside = &beside[moving as usize];
-                for &joint in beside.iter().filter(|&&joint| !has_role[moving as usize] && !has_role[joint]) {
-                    let away = figure.positions[vertex].distance_squared(figure.joints[joint]) + near * near;
-                    of[joint].push((place as u32, share * f64::from(weight) * (near * near / away).powi(2)));
-                }
+    for (vertex, row) in weight_rows(character, figure) {
+        let share = f64::from(bindings[vertex].weight(Part::Hair));
+        let Ok(place) = worn.places.binary_search(&weld.representative[vertex]) else { continue };
+        for &(moving, weight) in row.iter().filter(|entry| share > 0.0 && entry.1 > 0.0) {
+            let beside = &beside[moving as usize];
+            for &joint in beside.iter().filter(|&&joint| !has_role[moving as usize] && !has_role[joint]) {
+                let nearness = nearness(figure, vertex, joint, near);
+                of[joint].push((place as u32, share * f64::from(weight) * nearness));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What product mode finds of a target once, whatever style and options are: how it hangs on the parts, what it wears.
 
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
-use super::joint_bindings::{arm_binding, mean_bindings};
+use super::joint_bindings::{arm_binding, mean_bindings, weight_rows};
 use super::part::Part;
 use super::profile::Chart;
 use super::worn::Worn;
@@ -54,15 +54,9 @@ impl ProductTarget {
         let ground = GroundContact::of(figure, |vertex| of_legs(vertex) > 0.5);
         let means = mean_bindings(character, figure, &vertices);
         let joints = joint_bindings(character, figure, |joint| {
-            Binding::Parts(if is_head_joint_in_neck(measured, joint) {
-                PartBinding::to(Part::Neck)
-            } else if let Some(of_arm) = arm_binding(figure, joint) {
-                of_arm
-            } else if let Some(mean) = means[joint] {
-                mean
-            } else {
-                joint_binding(figure, &parts, joint)
-            })
+            let of_neck = is_head_joint_in_neck(measured, joint).then(|| PartBinding::to(Part::Neck));
+            let found = of_neck.or_else(|| arm_binding(figure, joint)).or(means[joint]);
+            Binding::Parts(found.unwrap_or_else(|| joint_binding(figure, &parts, joint)))
         });
         let vertices = vertices.into_iter().map(Binding::Parts).collect();
         let bindings = Bindings { eyes: eyes(character, figure), ..Bindings::new(vertices, joints, ground) };
@@ -83,10 +77,8 @@ const LEAST_EYE: usize = 8;
 fn eyes(character: &Character, figure: &Figure) -> Vec<(usize, Vec<u32>)> {
     let of = |joint: usize| -> Vec<u32> {
         let turns = |row: &[(u32, f32)]| row.iter().any(|&(by, weight)| by as usize == joint && weight > 0.5);
-        let meshes = character.meshes.iter().zip(&figure.mesh_starts);
-        let rows = meshes
-            .flat_map(|(mesh, &start)| mesh.weights.rows().enumerate().map(move |(v, row)| (start + v, row)));
-        rows.filter(|(_, row)| turns(row)).map(|(vertex, _)| vertex as u32).collect()
+        let rows = weight_rows(character, figure).filter(|(_, row)| turns(row));
+        rows.map(|(vertex, _)| vertex as u32).collect()
     };
     let joints =
         [Role::LeftEye, Role::RightEye].into_iter().filter_map(|role| character.humanoid.joint(role));

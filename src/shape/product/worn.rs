@@ -148,8 +148,7 @@ impl Worn {
             .iter()
             .map(|&corners| weld.triangle(corners).map(|place| index_of[place as usize]))
             .collect();
-        let own = Weld { representative: (0..places.len() as u32).collect(), count: places.len() };
-        let around = neighbours(&triangles, &own);
+        let around = neighbours(&triangles, &Weld::alone(places.len()));
         let of_body = body.iter().flatten().map(|&v| index_of[weld.representative[v as usize] as usize]);
         let is_sewn =
             marked(places.len(), of_body.filter(|&index| index != NONE).map(|index| index as usize));
