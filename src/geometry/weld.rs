@@ -2,6 +2,7 @@
 
 use super::cells::CellMap;
 use super::groups::{Groups, by_number};
+use super::lists::marked;
 use super::whole::floor;
 use glam::DVec3;
 
@@ -33,6 +34,12 @@ impl Weld {
             }
         }
         first
+    }
+
+    /// For each welded vertex whether any that belongs to it is `chosen`.
+    pub fn any(&self, chosen: &[bool]) -> Vec<bool> {
+        let these = self.representative.iter().zip(chosen).filter(|(_, is_chosen)| **is_chosen);
+        marked(self.count, these.map(|(&welded, _)| welded as usize))
     }
 
     /// The same triangle between welded vertices.

@@ -427,21 +427,15 @@ fn outline(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Outline> {
     let mut points: Vec<(DVec3, f64)> = Vec::new();
     for corners in triangles {
         let p = corners.map(|vertex| figure.positions[vertex as usize]);
-        let mut cut = [DVec3::ZERO; 2];
-        let mut count = 0;
-        for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
-            if (a.y > y) != (b.y > y) && count < 2 {
-                cut[count] = a.lerp(b, (y - a.y) / (b.y - a.y));
-                count += 1;
-            }
-        }
-        if count == 2 {
+        let sides = [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])].into_iter();
+        let mut cuts =
+            sides.filter(|(a, b)| (a.y > y) != (b.y > y)).map(|(a, b)| a.lerp(b, (y - a.y) / (b.y - a.y)));
+        if let (Some(from), Some(to)) = (cuts.next(), cuts.next()) {
             // A long edge counts along its whole length, not at its middle alone.
-            let length = cut[0].distance(cut[1]);
             let count = f64::from(EDGE_POINTS);
-            for step in 0..EDGE_POINTS {
-                points.push((cut[0].lerp(cut[1], (f64::from(step) + 0.5) / count), length / count));
-            }
+            let length = from.distance(to) / count;
+            let point = |step: u32| from.lerp(to, (f64::from(step) + 0.5) / count);
+            points.extend((0..EDGE_POINTS).map(|step| (point(step), length)));
         }
     }
     let length: f64 = points.iter().map(|&(_, length)| length).sum();

@@ -132,10 +132,8 @@ pub fn part_bindings(
         .map(|vertex| anatomy.landmarks.heights.chin - figure.positions[vertex].y)
         .fold(0.0, f64::max);
     let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
-    let mut things = things_on_head(figure, &members, &attachments);
-    let mut face = face_bindings(figure, face, &weights, &attachments, &things);
     let small = SMALL_ON_FACE * anatomy.landmarks.heights.head_length();
-    keep_small(figure, &members, small, &mut face, &mut things);
+    let (face, things) = face_bindings(figure, face, &weights, &attachments, &members, small);
     let is_skirt = skirt_vertices(figure, anatomy, weld);
     let bind =
         |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
@@ -145,14 +143,16 @@ pub fn part_bindings(
 }
 
 /// How each vertex takes part in the face step: with the skin or the hair as far as the head moves it, as an eyeball, or
-/// with a thing that keeps its shape.
+/// with a thing that keeps its shape; and the vertices of each such thing: what is worn on the head, and the pieces of the face
+/// no larger than `small`.
 fn face_bindings(
     figure: &Figure,
     face: Option<&FaceLandmarks>,
     weights: &[PartWeights],
     attachments: &[Attachment],
-    things: &[Vec<u32>],
-) -> Vec<FaceBinding> {
+    members: &[Vec<u32>],
+    small: f64,
+) -> (Vec<FaceBinding>, Vec<Vec<u32>>) {
     let bind = |vertex: usize| {
         let of_head = weights[vertex][Part::Head as usize] + weights[vertex][Part::Hair as usize];
         let share = smoothstep(f64::from(of_head)) as f32;
@@ -164,10 +164,9 @@ fn face_bindings(
         }
     };
     let mut bindings: Vec<FaceBinding> = (0..weights.len()).map(bind).collect();
-    for (thing, vertices) in things.iter().enumerate() {
-        for &vertex in vertices {
-            bindings[vertex as usize] = FaceBinding::Piece(thing as u32);
-        }
+    let mut things = things_on_head(figure, members, attachments);
+    for (thing, vertices) in (0..).zip(&things) {
+        vertices.iter().for_each(|&vertex| bindings[vertex as usize] = FaceBinding::Piece(thing));
     }
     let eyes = face.and_then(|face| face.eyes.as_ref());
     for (side, eye) in eyes.iter().flat_map(|(_, eyes)| eyes.iter().enumerate()) {
@@ -175,41 +174,28 @@ fn face_bindings(
             bindings[vertex as usize] = FaceBinding::Ball(side as u8);
         }
     }
-    bindings
+    // A flow turns the slivers of a thing of a few triangles over, and nobody sees what bends it.
+    for members in members {
+        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
+        let is_small = (high - low).max_element() < small;
+        if is_small && members.iter().all(|&vertex| bindings[vertex as usize] == FaceBinding::Skin(1.0)) {
+            let thing = FaceBinding::Piece(things.len() as u32);
+            members.iter().for_each(|&vertex| bindings[vertex as usize] = thing);
+            things.push(members.clone());
+        }
+    }
+    (bindings, things)
 }
 
 /// What is a piece of its own on the face and smaller than this, in head lengths, keeps its shape: tear glands, teeth.
 const SMALL_ON_FACE: f64 = 0.05;
-
-/// Adds to `things` the pieces of the face no larger than `small`: a flow turns the slivers of a thing of a few triangles
-/// over, and nobody sees what bends it.
-fn keep_small(
-    figure: &Figure,
-    members: &[Vec<u32>],
-    small: f64,
-    face: &mut [FaceBinding],
-    things: &mut Vec<Vec<u32>>,
-) {
-    for members in members {
-        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
-        let is_small = (high - low).max_element() < small;
-        if is_small && members.iter().all(|&vertex| face[vertex as usize] == FaceBinding::Skin(1.0)) {
-            for &vertex in members {
-                face[vertex as usize] = FaceBinding::Piece(things.len() as u32);
-            }
-            things.push(members.clone());
-        }
-    }
-}
 
 /// Boxes nearer to each other than this share of H are of one thing: lenses in their frame.
 const ONE_THING: f64 = 0.003;
 
 /// Hats, glasses, earrings: components that take the face map as a whole, together where they touch.
 fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachment]) -> Vec<Vec<u32>> {
-    let is_thing = |members: &&Vec<u32>| {
-        members.first().is_some_and(|&first| matches!(attachments[first as usize], Attachment::OnFace(_)))
-    };
+    let is_thing = |members: &&Vec<u32>| matches!(attachments[members[0] as usize], Attachment::OnFace(_));
     let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
     touching(figure, &components, ONE_THING, |_, _| true)
 }

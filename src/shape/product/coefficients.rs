@@ -312,12 +312,15 @@ impl<'a> Solver<'a> {
     /// All scales, and the bounds that acted.
     fn solved(mut self, sliced: f64) -> (PartCoefficients, Vec<Bounded>) {
         let asked = self.asked();
+        let (target, most) = (self.target, self.head_scale);
         let (torso, leg) = self.solve_neck(&asked);
-        self.solve_torso(torso);
+        // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
+        self.scales.torso.length = self.bounds.apply("torso length", torso / target.torso, 0.0, most);
         self.solve_thickness(&asked, leg, sliced);
-        self.solve_arms(asked.arm);
-        self.scales.hand = self.extremity(self.target.hand, asked.hand, self.scales.lower_arm.thickness);
-        self.scales.foot = self.extremity(self.target.foot, asked.foot, self.root(leg));
+        let arm = self.bounds.apply("arm length", asked.arm / target.arm, SHORTEST_LIMB, most);
+        (self.scales.upper_arm.length, self.scales.lower_arm.length) = (arm, arm);
+        self.scales.hand = self.extremity(target.hand, asked.hand, self.scales.lower_arm.thickness);
+        self.scales.foot = self.extremity(target.foot, asked.foot, self.root(leg));
         self.solve_legs(leg);
         (self.scales, self.bounds.acted)
     }
@@ -347,12 +350,6 @@ impl<'a> Solver<'a> {
         (asked.torso * rest, asked.leg * rest)
     }
 
-    fn solve_torso(&mut self, torso: f64) {
-        // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
-        self.scales.torso.length =
-            self.bounds.apply("torso length", torso / self.target.torso, 0.0, self.head_scale);
-    }
-
     /// The thickness that slices go on from: the style's of the torso, not slimmer than that becomes short, nor thicker than it was.
     /// All parts have it, so that they agree where they meet; but legs have the root of their length as far as no slice goes on
     /// from there.
@@ -376,12 +373,6 @@ impl<'a> Solver<'a> {
     /// How thick legs become that are to be `leg` long, where nothing else says so.
     fn root(&self, leg: f64) -> f64 {
         (leg / self.target.leg).max(SHORTEST_LIMB).sqrt()
-    }
-
-    fn solve_arms(&mut self, arm: f64) {
-        let length = self.bounds.apply("arm length", arm / self.target.arm, SHORTEST_LIMB, self.head_scale);
-        self.scales.upper_arm.length = length;
-        self.scales.lower_arm.length = length;
     }
 
     /// The size of hands or feet of length `own`: not slimmer than the limb, which becomes `least` as thick, nor nearer to the head's
@@ -412,8 +403,7 @@ impl<'a> Solver<'a> {
         if excess > ROUNDING * leg {
             scales.torso.length = (scales.torso.length - bounds.strictness * excess / target.torso).max(0.0);
         }
-        scales.upper_leg.length = length;
-        scales.lower_leg.length = length;
+        (scales.upper_leg.length, scales.lower_leg.length) = (length, length);
     }
 }
 

@@ -277,12 +277,7 @@ impl PartField {
             self.after.shoulder_line + length * (p.y - self.before.shoulder_line),
             self.neck_z[1] + thickness * (p.z - self.neck_z[0]),
         );
-        let jacobian = DMat3::from_cols(
-            DVec3::new(thickness, 0.0, 0.0),
-            DVec3::new(0.0, length, 0.0),
-            DVec3::new(0.0, 0.0, thickness),
-        );
-        Mapped { position, jacobian }
+        Mapped { position, jacobian: DMat3::from_diagonal(DVec3::new(thickness, length, thickness)) }
     }
 
     /// The head is scaled about the chin's level on the neck's axis.
@@ -309,13 +304,11 @@ impl PartField {
             };
             // Where the slices leave the joints; directions stay those at rest.
             let [first, second, last] = limb.parts;
+            let joints = [limb.root, limb.middle, limb.end];
             let from: [DVec3; 3] = match &self.slices {
-                Some(slices) if is_arm => {
-                    [limb.root, limb.middle, limb.end].map(|joint| slices.map.on_bones(joint, index))
-                }
-                Some(slices) => [(first, limb.root), (second, limb.middle), (last, limb.end)]
-                    .map(|(part, joint)| slices.map.part(part, joint, false)),
-                None => [limb.root, limb.middle, limb.end],
+                Some(slices) if is_arm => joints.map(|joint| slices.map.on_bones(joint, index)),
+                Some(slices) => std::array::from_fn(|at| slices.map.part(limb.parts[at], joints[at], false)),
+                None => joints,
             };
             let mut root = self.torso(from[0]).position;
             root.x = self.anatomy.middle_x + spread * (from[0].x - self.anatomy.middle_x);

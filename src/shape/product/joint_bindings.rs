@@ -55,16 +55,11 @@ pub fn mean_bindings(
         }
     }
     let on_head = |joint: usize| figure.joint_roles[joint].is_none_or(|role| role == Role::Head);
-    let mut found: Vec<Option<PartBinding>> = means
-        .iter()
-        .enumerate()
-        .map(|(joint, mean)| if own_role[joint] || on_head(joint) { None } else { mean.binding() })
-        .collect();
-    for joint in character.skeleton.parents_first() {
+    let mut found: Vec<Option<PartBinding>> = vec![None; means.len()];
+    let is_loose = |joint: &usize| !own_role[*joint] && !on_head(*joint);
+    for joint in character.skeleton.parents_first().into_iter().filter(is_loose) {
         let parent = character.skeleton.joints[joint].parent;
-        if found[joint].is_none() && !own_role[joint] && !on_head(joint) {
-            found[joint] = parent.and_then(|parent| found[parent]);
-        }
+        found[joint] = means[joint].binding().or_else(|| found[parent?]);
     }
     found
 }
@@ -74,14 +69,12 @@ pub fn mean_bindings(
 pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
     use Role::*;
     let role = figure.joint_roles[joint]?;
-    let next = match role {
+    let next = match role.on_side(role.is_left()) {
         LeftUpperArm => LeftLowerArm,
-        LeftLowerArm => LeftHand,
-        RightUpperArm => RightLowerArm,
-        RightLowerArm => RightHand,
-        LeftHand | RightHand => role,
+        LeftLowerArm | LeftHand => LeftHand,
         _ => return None,
     };
+    let next = next.on_side(role.is_left());
     let own = figure.humanoid.joint(role);
     let is_on_bone = own == Some(joint) || {
         let (p, from, to) = (figure.joints[joint], figure.role_position(role)?, figure.role_position(next)?);

@@ -48,18 +48,12 @@ pub fn smooth_along(
 ) -> Result<()> {
     let around = neighbours(&figure.triangles, weld);
     let firsts = weld.first_vertices();
-    let mut edges: Vec<f64> = Vec::new();
-    for vertex in 0..weld.count {
-        let p = figure.positions[firsts[vertex] as usize];
-        edges.extend(
-            around
-                .of(vertex)
-                .iter()
-                .filter(|&&other| other as usize > vertex)
-                .map(|&other| p.distance(figure.positions[firsts[other as usize] as usize])),
-        );
-    }
-    let Some(median) = upper_median(edges) else { return Ok(()) };
+    let place = |welded: usize| figure.positions[firsts[welded] as usize];
+    let edges =
+        (0..weld.count).flat_map(|one| around.of(one).iter().map(move |&other| (one, other as usize)));
+    let edges = edges.filter(|(one, other)| other > one);
+    let lengths = edges.map(|(one, other)| place(one).distance(place(other)));
+    let Some(median) = upper_median(lengths) else { return Ok(()) };
     let width = SMOOTHING_WIDTH * figure.height() / median.max(f64::MIN_POSITIVE);
     let passes =
         (PASSES_PER_SQUARE * width * width).clamp(UMBRELLA_PASSES.0, UMBRELLA_PASSES.1).round() as usize;
@@ -67,15 +61,10 @@ pub fn smooth_along(
     // Vertices at one place share one row from here on: their mean, so that seams stay closed.
     let mut rows = vec![[0.0f32; PART_COUNT]; weld.count];
     let mut counts = vec![0.0f32; weld.count];
-    let mut still = vec![false; weld.count];
+    let still = weld.any(frozen);
     for (vertex, row) in parts.iter().enumerate() {
         let welded = weld.representative[vertex] as usize;
         // Where hair is rooted in the scalp both must move as the frozen one does.
-        if frozen[vertex] && !still[welded] {
-            still[welded] = true;
-            rows[welded] = [0.0; PART_COUNT];
-            counts[welded] = 0.0;
-        }
         if still[welded] == frozen[vertex] {
             add(&mut rows[welded], row, 1.0);
             counts[welded] += 1.0;
@@ -232,12 +221,8 @@ pub fn smooth_across(
     Ok(())
 }
 
-/// The points that one point is smoothed with, in the order of the tree.
-struct Layer {
-    count: usize,
-    slots: [u32; LAYER_NEIGHBOURS],
-    weights: [f32; LAYER_NEIGHBOURS],
-}
+/// The points that one point is smoothed with, in the order of the tree, and their weights; where there are fewer, itself with none.
+type Layer = [(u32, f32); LAYER_NEIGHBOURS];
 
 /// What `sides` has on opposite sides does not mix. `LAYER_PASSES` Gaussian means over the nearest points within
 /// [`LAYER_REACH`] standard deviations, `sigma` each.
@@ -268,22 +253,17 @@ fn layer_steps(
             };
             tree.nearest(p, LAYER_NEIGHBOURS, bound, found);
             *last = Some(p);
-            let mut layer =
-                Layer { count: found.len(), slots: [0; LAYER_NEIGHBOURS], weights: [0.0; LAYER_NEIGHBOURS] };
             let gaussian = |distance: f64| (-(distance * distance) / (2.0 * sigma * sigma)).exp();
             // The kernel ends at the last point that was found: which of several at that distance it is must not
             // matter, or the last digits of a model would show.
-            let end = if found.len() == LAYER_NEIGHBOURS {
-                gaussian(found[LAYER_NEIGHBOURS - 1].distance())
-            } else {
-                gaussian(reach)
-            };
+            let end = gaussian(found.get(LAYER_NEIGHBOURS - 1).map_or(reach, |last| last.distance()));
             let side = |slot: u32| sides[tree.indices()[slot as usize] as usize];
             let own_side = side(slot as u32);
-            for (place, near) in found.iter().enumerate() {
-                layer.slots[place] = near.slot();
+            let mut layer: Layer = [(slot as u32, 0.0); LAYER_NEIGHBOURS];
+            for ((other, weight), near) in layer.iter_mut().zip(&*found) {
+                *other = near.slot();
                 let apart = 1.0 - (-own_side * side(near.slot())).max(0.0);
-                layer.weights[place] = (gaussian(near.distance()) - end).max(0.0) as f32 * apart;
+                *weight = (gaussian(near.distance()) - end).max(0.0) as f32 * apart;
             }
             layer
         },
@@ -292,10 +272,9 @@ fn layer_steps(
     for pass in 0..LAYER_PASSES {
         progress.at(0.7 + 0.1 * pass as f32)?;
         ordered = parallel::collect(threads, points.len(), parallel::FEW_RAYS, |slot| {
-            let layer = &layers[slot];
             let mut sum = [0.0; PART_COUNT];
             let mut total = 0.0;
-            for (&other, &weight) in layer.slots.iter().zip(&layer.weights).take(layer.count) {
+            for &(other, weight) in &layers[slot] {
                 add(&mut sum, &ordered[other as usize], weight);
                 total += weight;
             }

@@ -11,7 +11,7 @@ use super::skirt_weights::follow_legs;
 use super::smoothing::{Fork, smooth_across, smooth_along};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
-use crate::geometry::{Weld, marked, smoothstep};
+use crate::geometry::{Weld, smoothstep};
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -83,8 +83,7 @@ pub fn part_weights(
         smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
     }
     // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
-    let places = weld.representative.iter().zip(&fixed).filter(|(_, fixed)| **fixed);
-    let holds_fixed = marked(weld.count, places.map(|(&welded, _)| welded as usize));
+    let holds_fixed = weld.any(&fixed);
     let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_fixed[welded as usize]).collect();
     smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
