@@ -265,19 +265,19 @@ impl Anatomy {
 
     /// z of the torso's centre line at height `y`, constant beyond its ends, and its slope there.
     pub fn centre_z(&self, y: f64) -> (f64, f64) {
-        let line = &self.centre_line;
-        if y <= line[0].0 {
-            return (line[0].1, 0.0);
+        let [(y0, z0), (y1, z1)] = beside(&self.centre_line, y);
+        if y0 == y1 {
+            return (z0, 0.0);
         }
-        for pair in line.windows(2) {
-            let ((y0, z0), (y1, z1)) = (pair[0], pair[1]);
-            if y <= y1 {
-                let slope = (z1 - z0) / (y1 - y0);
-                return (z0 + slope * (y - y0), slope);
-            }
-        }
-        (line[line.len() - 1].1, 0.0)
+        let slope = (z1 - z0) / (y1 - y0);
+        (z0 + slope * (y - y0), slope)
     }
+}
+
+/// The points of a line, told by how far along they are, before and after `at`; beyond its ends the last one twice.
+fn beside(line: &[(f64, f64)], at: f64) -> [(f64, f64); 2] {
+    let next = line.iter().position(|&(along, _)| at <= along).unwrap_or(line.len());
+    [next.saturating_sub(1), next.min(line.len() - 1)].map(|point| line[point])
 }
 
 /// Shoulder, elbow and wrist of one side.
@@ -399,24 +399,17 @@ impl Outline {
     /// move a quantile to the next point.
     fn between(&mut self, axis: fn(&DVec3) -> f64, (low, high): (f64, f64)) -> (f64, f64) {
         self.points.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
+        let mut sum = 0.0;
+        let passed = |(p, length): &(DVec3, f64)| {
+            let middle = sum + length / 2.0;
+            sum += length;
+            (middle, axis(p))
+        };
+        let line: Vec<(f64, f64)> = self.points.iter().map(passed).collect();
         let at = |share: f64| {
             let wanted = share * self.length;
-            let mut sum = 0.0;
-            let mut last: Option<(f64, f64)> = None;
-            for (p, length) in &self.points {
-                let (middle, x) = (sum + length / 2.0, axis(p));
-                sum += length;
-                if middle >= wanted {
-                    return match last {
-                        Some((before, from)) => {
-                            from + (x - from) * (wanted - before) / (middle - before).max(TINY)
-                        }
-                        None => x,
-                    };
-                }
-                last = Some((middle, x));
-            }
-            last.map_or(0.0, |(_, x)| x)
+            let [(before, from), (after, to)] = beside(&line, wanted);
+            from + (to - from) * (wanted - before) / (after - before).max(TINY)
         };
         (at(low), at(high))
     }

@@ -111,11 +111,7 @@ impl Bounds {
     fn apply(&mut self, what: &'static str, value: f64, low: f64, high: f64) -> f64 {
         let bounded = self.within(value, low, high);
         if (bounded - value).abs() > BOUND_WARNED_ABOVE * value.abs() {
-            // Two bounds on one thing are one warning.
-            match self.acted.iter_mut().find(|known| known.what == what) {
-                Some(known) => known.to = bounded,
-                None => self.acted.push(Bounded { what, from: value, to: bounded }),
-            }
+            self.acted.push(Bounded { what, from: value, to: bounded });
         }
         bounded
     }

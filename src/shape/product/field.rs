@@ -135,11 +135,6 @@ impl PartField {
         self.affine[HEAD].map(p).position
     }
 
-    /// How much the head grows.
-    pub fn head_scale(&self) -> HeadScale {
-        self.coefficients.head
-    }
-
     /// Heights before.
     pub fn before(&self) -> &Heights {
         &self.before

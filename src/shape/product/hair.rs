@@ -109,7 +109,7 @@ impl Hanging {
 
 impl Shortening {
     fn of(strands: &Strands, field: &PartField, length: f64) -> Self {
-        let HeadScale { height, width, depth } = field.head_scale();
+        let HeadScale { height, width, depth } = field.coefficients().head;
         let wanted: Vec<f64> =
             strands.tips.iter().map(|&tip| wanted(field, strands.frame.length, tip, length)).collect();
         let (mut sum, mut total) = (0.0, f64::MIN_POSITIVE);
@@ -170,7 +170,7 @@ impl Shortening {
 fn wanted(field: &PartField, head: f64, tip: f64, length: f64) -> f64 {
     let depth = (-tip).max(0.0);
     let (before, after) = (field.before(), field.after());
-    let unit = head * field.head_scale().height;
+    let unit = head * field.coefficients().head.height;
     let on_body = ((after.chin - field.body_height(before.chin - depth * head)) / unit).clamp(0.0, depth);
     let both = on_body.powf(OF_BODY) * depth.powf(1.0 - OF_BODY);
     let is_long = smoothstep((depth - SHORT.0) / (SHORT.1 - SHORT.0));

@@ -84,7 +84,7 @@ pub fn rims(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
 }
 
 /// Normals of the welded vertices that `triangles` use, by area; zero elsewhere and at their [`rims`].
-pub fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: &Weld) -> Vec<DVec3> {
+fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: &Weld) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; weld.count];
     for corners in triangles {
         let normal = double_area(points, *corners);

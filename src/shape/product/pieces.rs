@@ -19,10 +19,9 @@ const TOUCHING: f64 = 0.005;
 const RIGID_WEIGHT: f64 = 0.99;
 
 /// How a point takes part in the deformation, besides its weights.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Attachment {
     /// By its weights alone.
-    #[default]
     Plain,
     /// A joint of an arm: it follows the bones, not the slices around them.
     OnBone,

@@ -79,14 +79,11 @@ impl PartCoefficients {
         for kind in Group::ALL {
             all.entry(groups.name(kind).to_string()).or_default().push(self.of(kind));
         }
-        let mean = |scales: &[Scale], of: fn(&Scale) -> f64| {
-            scales.iter().map(of).sum::<f64>() / scales.len() as f64
+        let coefficient = |scales: Vec<Scale>| {
+            let mean = |of: fn(&Scale) -> f64| scales.iter().map(of).sum::<f64>() / scales.len() as f64;
+            Coefficient { length_scale: mean(|it| it.length), thickness_scale: mean(|it| it.thickness) }
         };
-        let coefficient = |scales: &[Scale]| Coefficient {
-            length_scale: mean(scales, |scale| scale.length),
-            thickness_scale: mean(scales, |scale| scale.thickness),
-        };
-        all.iter().map(|(name, scales)| (name.clone(), coefficient(scales))).collect()
+        all.into_iter().map(|(name, scales)| (name, coefficient(scales))).collect()
     }
 
     /// The scale of the parts of one kind.

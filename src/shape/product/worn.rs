@@ -66,20 +66,12 @@ impl Worn {
     pub fn of(figure: &Figure, is_known: impl Fn(usize) -> bool, weld: &Weld, threads: usize) -> Self {
         let body_is_known = (0..figure.positions.len())
             .any(|vertex| figure.kind(vertex) == MeshKind::Body && is_known(vertex));
-        // 0: neither, 1: body, 2: cloth, 3: perhaps cloth.
-        let class = |corners: &[u32; 3]| {
-            let vertex = corners[0] as usize;
-            match figure.kind(vertex) {
-                MeshKind::Garment => 2,
-                MeshKind::Body if body_is_known && !is_known(vertex) => 3,
-                MeshKind::Body => 1,
-                _ => 0,
-            }
+        let of_kind = |kind: MeshKind| {
+            figure.triangles.iter().copied().filter(move |&[first, ..]| figure.kind(first as usize) == kind)
         };
-        let of_class = |wanted: u8| -> Vec<[u32; 3]> {
-            figure.triangles.iter().filter(|corners| class(corners) == wanted).copied().collect()
-        };
-        let (mut body, mut cloth, perhaps) = (of_class(1), of_class(2), of_class(3));
+        let mut cloth: Vec<[u32; 3]> = of_kind(MeshKind::Garment).collect();
+        let (perhaps, mut body): (Vec<[u32; 3]>, Vec<[u32; 3]>) =
+            of_kind(MeshKind::Body).partition(|&[first, ..]| body_is_known && !is_known(first as usize));
         if body.is_empty() || (cloth.is_empty() && perhaps.is_empty()) {
             return Self::default();
         }
