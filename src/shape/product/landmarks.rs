@@ -286,21 +286,6 @@ pub(super) fn middle(positions: &[DVec3], vertices: &[u32]) -> Option<(DVec3, DV
     (low.x <= high.x).then(|| ((low + high) / 2.0, (high - low) / 2.0))
 }
 
-/// Those of `triangles` that, seen from above, share a point with the box from `low` to `high`, `sliver` more.
-fn within(
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
-    [low, high]: [DVec3; 2],
-    sliver: f64,
-) -> Vec<[u32; 3]> {
-    let is_near = |corners: &&[u32; 3]| {
-        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
-        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-        [0, 2].iter().all(|&axis| least[axis] <= high[axis] + sliver && most[axis] >= low[axis] - sliver)
-    };
-    triangles.iter().filter(is_near).copied().collect()
-}
-
 /// The crown: the head's top without hair where at least five of the seven rays meet a skull, else with it.
 ///
 /// The rays stand over the joint, about which paper mode scales the head: so the crown of the result is that of the
@@ -334,12 +319,17 @@ fn top(
     let (centre, _) = middle(positions, &triangles.vertices)?;
     // Where some of the head is the head's alone, its width: vertices that the neck moves too change it.
     let (_, half) = middle(positions, &width.sure).or_else(|| middle(positions, &width.vertices))?;
-    let reach = DVec3::splat(half.x / 4.0);
+    let (reach, sliver) = (DVec3::splat(half.x / 4.0), SLIVER * placed.height());
     let above = placed.extent.1 + HAIRBREADTH * placed.height();
     [(joint, MOST_RAYS), (centre, least)].into_iter().find_map(|(over, least)| {
-        // No ray meets anything else, and a tree of few triangles is made soon.
-        let around = [over - reach, over + reach];
-        let near = within(positions, &triangles.all, around, SLIVER * placed.height());
+        // Seen from above, no ray meets anything else, and a tree of few triangles is made soon.
+        let (low, high) = (over - reach, over + reach);
+        let is_near = |corners: &&[u32; 3]| {
+            let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+            let (from, to) = (a.min(b).min(c), a.max(b).max(c));
+            [0, 2].iter().all(|&axis| from[axis] <= high[axis] + sliver && to[axis] >= low[axis] - sliver)
+        };
+        let near: Vec<[u32; 3]> = triangles.all.iter().filter(is_near).copied().collect();
         let top = head_top(&Surface::new(positions, &near), over.with_y(joint.y), half.x, above);
         top.point.filter(|_| top.hit_count >= least).map(|point| point.y)
     })

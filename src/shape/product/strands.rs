@@ -178,26 +178,21 @@ impl Strands {
     /// hair.
     pub fn solve(&self, wanted: impl Fn(&Link) -> DVec3, at: &[DVec3]) -> Vec<DVec3> {
         let size = self.free.len();
-        let mut columns = vec![0.0; 3 * size];
-        let mut add = |place: u32, value: DVec3| {
-            let number = self.numbers[place as usize];
-            if number != NONE {
-                (0..3).for_each(|axis| columns[axis * size + number as usize] += value[axis]);
-            }
-        };
+        let mut sums = vec![DVec3::ZERO; at.len()];
         for link in &self.links {
-            let [one, other] = link.ends;
+            let [one, other] = link.ends.map(|place| place as usize);
             let difference = link.weight * wanted(link);
-            let fixed = |place: u32| {
-                let is_fixed = self.numbers[place as usize] == NONE;
-                if is_fixed { link.weight * at[place as usize] } else { DVec3::ZERO }
+            let fixed = |place: usize| {
+                let is_fixed = self.numbers[place] == NONE;
+                if is_fixed { link.weight * at[place] } else { DVec3::ZERO }
             };
-            add(one, difference + fixed(other));
-            add(other, fixed(one) - difference);
+            sums[one] += difference + fixed(other);
+            sums[other] += fixed(one) - difference;
         }
-        for (place, (&held, &at)) in (0..).zip(self.held.iter().zip(at)) {
-            add(place, held * at);
+        for (sum, (&held, &at)) in sums.iter_mut().zip(self.held.iter().zip(at)) {
+            *sum += held * at;
         }
+        let mut columns: Vec<f64> = self.columns(&sums).collect();
         self.factor.solve(&mut columns, 3);
         let mut all = at.to_vec();
         for (number, &place) in self.free.iter().enumerate() {
@@ -211,6 +206,11 @@ impl Strands {
             });
         }
         all
+    }
+
+    /// What `of` gives for the places that are not all held, axis by axis.
+    fn columns<'a>(&'a self, of: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
+        (0..3).flat_map(move |axis| self.free.iter().map(move |&place| of[place as usize][axis]))
     }
 
     /// Adds to each vertex of hair as much of what `of` gives for its place as it is hair.
@@ -279,10 +279,8 @@ impl Strands {
         let size = self.free.len();
         let mut drained = vec![1.0; size];
         self.factor.solve(&mut drained, 1);
-        let at = |place: u32| {
-            let number = self.numbers[place as usize];
-            if number == NONE { 0.0 } else { drained[number as usize] }
-        };
+        // What the head holds has no number, and nothing drains from there.
+        let at = |place: u32| drained.get(self.numbers[place as usize] as usize).copied().unwrap_or(0.0);
         let mut flow = vec![DVec3::ZERO; self.points.len()];
         let mut mass = vec![0.0; self.points.len()];
         let mut firmness = vec![0.0; self.points.len()];
@@ -301,9 +299,7 @@ impl Strands {
         let mass = |place: usize| mass[place].max(SHORTEST * SHORTEST);
         let diagonal: Vec<f64> = free.iter().map(|&place| mass(place) + firmness[place]).collect();
         let even = Cholesky::new(&diagonal, &self.lower(spread))?;
-        let mut columns: Vec<f64> = Vec::with_capacity(5 * size);
-        let flow = &flow;
-        columns.extend((0..3).flat_map(|axis| free.iter().map(move |&place| flow[place][axis])));
+        let mut columns: Vec<f64> = self.columns(&flow).collect();
         columns.extend(free.iter().map(|&place| mass(place) * self.lies[place]));
         columns.extend(free.iter().map(|&place| mass(place) * self.tips[place]));
         even.solve(&mut columns, 5);
