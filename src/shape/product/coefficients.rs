@@ -278,7 +278,6 @@ struct Solver<'a> {
     target: &'a Proportions,
     goal: Goal<'a>,
     lost: f64,
-    head_scale: f64,
     /// The new head's length.
     head: f64,
     bounds: Bounds,
@@ -298,7 +297,6 @@ impl<'a> Solver<'a> {
             target,
             goal,
             lost,
-            head_scale,
             head: head_scale * target.head_length,
             bounds: Bounds { strictness: if options.limits { growth } else { 0.0 }, acted: Vec::new() },
             scales: PartCoefficients { head, ..PartCoefficients::IDENTITY },
@@ -308,7 +306,7 @@ impl<'a> Solver<'a> {
     /// All scales, and the bounds that acted.
     fn solved(mut self, sliced: f64) -> (PartCoefficients, Vec<Bounded>) {
         let asked = self.asked();
-        let (target, most) = (self.target, self.head_scale);
+        let (target, most) = (self.target, self.scales.head.height);
         let (torso, leg) = self.solve_neck(&asked);
         // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
         self.scales.torso.length = self.bounds.apply("torso length", torso / target.torso, 0.0, most);
@@ -326,7 +324,7 @@ impl<'a> Solver<'a> {
         let Some(reference) = self.goal.reference() else {
             return of_heads(1.0 + self.lost * (TRUNK_FOR_HEADS - 1.0));
         };
-        let width_factor = self.scales.head.width / self.head_scale;
+        let width_factor = self.scales.head.width / self.scales.head.height;
         let style = Asked::of_reference(self.target, reference, self.head, width_factor);
         of_heads(1.0).towards(style, self.lost)
     }
@@ -376,7 +374,8 @@ impl<'a> Solver<'a> {
     fn extremity(&self, own: Option<f64>, asked: Option<f64>, least: f64) -> f64 {
         match asked.zip(own) {
             Some((asked, own)) => {
-                let bounded = self.bounds.within(asked / own, least, (least * self.head_scale).sqrt());
+                let bounded =
+                    self.bounds.within(asked / own, least, (least * self.scales.head.height).sqrt());
                 self.towards(least, bounded)
             }
             None => least,
@@ -393,7 +392,7 @@ impl<'a> Solver<'a> {
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);
         }
         let length = (leg - target.ankle_height * scales.foot) / shank;
-        let length = bounds.apply("leg length", length, SHORTEST_LIMB, self.head_scale);
+        let length = bounds.apply("leg length", length, SHORTEST_LIMB, scales.head.height);
         // What the legs could not give, the torso gives.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {

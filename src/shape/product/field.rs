@@ -53,7 +53,6 @@ impl Affine {
 pub struct PartField {
     anatomy: Anatomy,
     coefficients: PartCoefficients,
-    before: Heights,
     after: Heights,
     /// Maps of the parts that are affine: head and limbs; torso and neck have their own.
     affine: [Affine; PART_COUNT],
@@ -76,7 +75,6 @@ impl PartField {
         let mut field = Self {
             anatomy: anatomy.clone(),
             coefficients,
-            before,
             after: heights_after(anatomy, &coefficients),
             affine: [Affine::IDENTITY; PART_COUNT],
             yoke_slope: coefficients.torso.thickness.min(YOKE_PER_NECK * coefficients.neck.length).min(1.0),
@@ -108,7 +106,7 @@ impl PartField {
 
     /// How much longer torso, legs and arms become.
     pub fn lengths(&self) -> [f64; 3] {
-        let (before, after, limbs) = (&self.before, &self.after, &self.anatomy.limbs);
+        let (before, after, limbs) = (self.before(), &self.after, &self.anatomy.limbs);
         let new = |limb: &Limb| limb.parts.map(|part| self.affine[part].to);
         let ankles = |height: &dyn Fn(&Limb) -> f64| limbs[2..].iter().map(height).sum::<f64>() / 2.0;
         let arms = |length: &dyn Fn(&Limb) -> f64| limbs[..2].iter().map(length).sum::<f64>();
@@ -137,7 +135,7 @@ impl PartField {
 
     /// Heights before.
     pub fn before(&self) -> &Heights {
-        &self.before
+        &self.anatomy.landmarks.heights
     }
 
     /// Heights after, before the ground shift.
@@ -243,7 +241,7 @@ impl PartField {
     #[inline(always)]
     fn torso(&self, p: DVec3) -> Mapped {
         let Scale { length, thickness } = self.coefficients.torso;
-        let (before, after) = (&self.before, &self.after);
+        let (before, after) = (self.before(), &self.after);
         let (y, slope) = if p.y < before.crotch {
             let slope = (after.crotch - after.sole) / (before.crotch - before.sole);
             (after.sole + slope * (p.y - before.sole), slope)
@@ -269,7 +267,7 @@ impl PartField {
         let Scale { length, thickness } = self.coefficients.neck;
         let position = DVec3::new(
             self.anatomy.middle_x + thickness * (p.x - self.anatomy.middle_x),
-            self.after.shoulder_line + length * (p.y - self.before.shoulder_line),
+            self.after.shoulder_line + length * (p.y - self.before().shoulder_line),
             self.neck_z[1] + thickness * (p.z - self.neck_z[0]),
         );
         Mapped { position, jacobian: DMat3::from_diagonal(DVec3::new(thickness, length, thickness)) }
@@ -280,7 +278,7 @@ impl PartField {
         let anatomy = &self.anatomy;
         let HeadScale { height, width, depth } = self.coefficients.head;
         let axis_z = anatomy.head_joint.z;
-        let from = DVec3::new(anatomy.middle_x, self.before.chin, axis_z);
+        let from = DVec3::new(anatomy.middle_x, self.before().chin, axis_z);
         let z = self.neck_z[1] + self.coefficients.neck.thickness * (axis_z - self.neck_z[0]);
         let to = DVec3::new(anatomy.middle_x, self.after.chin, z);
         let linear = DMat3::from_diagonal(DVec3::new(width, height, depth));
@@ -313,7 +311,7 @@ impl PartField {
             let mut end = self.affine[second].map(from[2]).position;
             if !is_arm {
                 // Legs of unequal length still both stand on the ground.
-                end.y = self.after.sole + size * (limb.end.y - self.before.sole);
+                end.y = self.after.sole + size * (limb.end.y - self.before().sole);
             }
             self.affine[last] = Affine { from: from[2], to: end, linear: DMat3::IDENTITY * size };
         }
@@ -328,7 +326,7 @@ impl PartField {
         let along = (0..3).map(|axis| to.jacobian.row(axis).dot(spread.col(axis))).sum::<f64>();
         let all = (0..3).map(|axis| spread.col(axis)[axis]).sum::<f64>();
         let mut scale = if along > 0.0 && all > 0.0 { along / all } else { to.local_scale() };
-        if piece.lowest >= self.before.sole && piece.anchor.y > piece.lowest {
+        if piece.lowest >= self.before().sole && piece.anchor.y > piece.lowest {
             // What did not reach the ground does not reach below it.
             scale = scale
                 .min((to.position.y - self.after.sole) / (piece.anchor.y - piece.lowest))
@@ -339,7 +337,7 @@ impl PartField {
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.
     pub fn body_height(&self, y: f64) -> f64 {
-        let (b, a) = (&self.before, &self.after);
+        let (b, a) = (self.before(), &self.after);
         let knots =
             [(b.sole, a.sole), (b.crotch, a.crotch), (b.shoulder_line, a.shoulder_line), (b.chin, a.chin)];
         for pair in knots.windows(2) {

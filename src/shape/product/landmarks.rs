@@ -419,10 +419,8 @@ fn crotch(figure: &Figure, hip_line: f64) -> (f64, bool) {
     use Role::*;
     let height = figure.height();
     let by_ratio = (hip_line - CROTCH_BY_RATIO * height, false);
-    let (Some(left), Some(right)) = (figure.role_position(LeftUpperLeg), figure.role_position(RightUpperLeg))
-    else {
-        return by_ratio;
-    };
+    let [left, right] =
+        [LeftUpperLeg, RightUpperLeg].map(|role| figure.role_position(role).unwrap_or_default());
     let knees = match (figure.role_position(LeftLowerLeg), figure.role_position(RightLowerLeg)) {
         (Some(l), Some(r)) => (l.y + r.y) / 2.0,
         _ => (figure.extent.0 + hip_line) / 2.0,

@@ -4,7 +4,7 @@ use super::part::{PART_COUNT, Part, PartWeights, TINY, add};
 use super::profile::chains::arm_share;
 use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::{Neighbours, Weld, neighbours, smoothstep, upper_median};
+use crate::geometry::{NONE, Neighbours, Weld, neighbours, smoothstep, upper_median};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
@@ -187,34 +187,32 @@ pub fn smooth_across(
     let class: Vec<usize> = parts.iter().map(class_of).collect();
     // Vertices at one place are one sample and get one result.
     let mut samples: [Vec<usize>; CLASS_COUNT] = Default::default();
-    let mut sample_of = vec![u32::MAX; parts.len()];
-    let mut known = vec![[u32::MAX; CLASS_COUNT]; weld.count];
+    let mut sample_of = vec![[NONE; CLASS_COUNT]; weld.count];
     for vertex in (0..parts.len()).filter(|&vertex| !frozen[vertex]) {
         let of_class = &mut samples[class[vertex]];
-        let sample = &mut known[weld.representative[vertex] as usize][class[vertex]];
-        if *sample == u32::MAX {
+        let sample = &mut sample_of[weld.representative[vertex] as usize][class[vertex]];
+        if *sample == NONE {
             *sample = of_class.len() as u32;
             of_class.push(vertex);
         }
-        sample_of[vertex] = *sample;
     }
     let all = samples.iter().map(Vec::len).sum::<usize>().max(1) as f32;
     let mut done = 0.0;
-    let mut smoothed: [Vec<PartWeights>; CLASS_COUNT] = Default::default();
-    for (samples, smoothed) in samples.iter().zip(&mut smoothed) {
+    let mut smoothed: Vec<Vec<PartWeights>> = Vec::new();
+    for samples in &samples {
         let points: Vec<DVec3> = samples.iter().map(|&vertex| figure.positions[vertex]).collect();
         let rows: Vec<PartWeights> = samples.iter().map(|&vertex| parts[vertex]).collect();
         let start = done;
         done += samples.len() as f32 / all;
         let sides: Vec<f32> = points.iter().zip(&rows).map(|(&p, row)| fork.side(p, row)).collect();
-        *smoothed = layer_steps(&points, rows, &sides, sigma, threads, &mut progress.part(start, done))?;
+        let part = &mut progress.part(start, done);
+        smoothed.push(layer_steps(&points, rows, &sides, sigma, threads, part)?);
     }
-    for (vertex, &sample) in sample_of.iter().enumerate() {
-        if sample != u32::MAX {
-            parts[vertex] = smoothed[class[vertex]][sample as usize];
+    for (vertex, row) in parts.iter_mut().enumerate() {
+        if !frozen[vertex] {
+            let sample = sample_of[weld.representative[vertex] as usize][class[vertex]];
+            *row = smoothed[class[vertex]][sample as usize];
         }
-    }
-    for row in parts.iter_mut() {
         let total: f32 = row.iter().sum();
         row.iter_mut().for_each(|weight| *weight /= total);
     }
