@@ -5,128 +5,80 @@
 
 use std::fmt;
 
-/// A humanoid role. The discriminants are those of Unity's `HumanBodyBones`.
-#[allow(missing_docs)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[repr(u8)]
-pub enum Role {
-    Hips,
-    LeftUpperLeg,
-    RightUpperLeg,
-    LeftLowerLeg,
-    RightLowerLeg,
-    LeftFoot,
-    RightFoot,
-    Spine,
-    Chest,
-    Neck,
-    Head,
-    LeftShoulder,
-    RightShoulder,
-    LeftUpperArm,
-    RightUpperArm,
-    LeftLowerArm,
-    RightLowerArm,
-    LeftHand,
-    RightHand,
-    LeftToes,
-    RightToes,
-    LeftEye,
-    RightEye,
-    Jaw,
-    LeftThumbMetacarpal,
-    LeftThumbProximal,
-    LeftThumbDistal,
-    LeftIndexProximal,
-    LeftIndexIntermediate,
-    LeftIndexDistal,
-    LeftMiddleProximal,
-    LeftMiddleIntermediate,
-    LeftMiddleDistal,
-    LeftRingProximal,
-    LeftRingIntermediate,
-    LeftRingDistal,
-    LeftLittleProximal,
-    LeftLittleIntermediate,
-    LeftLittleDistal,
-    RightThumbMetacarpal,
-    RightThumbProximal,
-    RightThumbDistal,
-    RightIndexProximal,
-    RightIndexIntermediate,
-    RightIndexDistal,
-    RightMiddleProximal,
-    RightMiddleIntermediate,
-    RightMiddleDistal,
-    RightRingProximal,
-    RightRingIntermediate,
-    RightRingDistal,
-    RightLittleProximal,
-    RightLittleIntermediate,
-    RightLittleDistal,
-    UpperChest,
+/// The roles in Unity's order, each with its VRM 1.0 name and the role above it in the humanoid hierarchy.
+macro_rules! roles {
+    ($($role:ident: $name:literal, $above:expr;)+) => {
+        /// A humanoid role. The discriminants are those of Unity's `HumanBodyBones`.
+        #[allow(missing_docs)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[repr(u8)]
+        pub enum Role {
+            $($role),+
+        }
+
+        const ROLES: [(Role, &str, Option<Role>); Role::COUNT] = [$((Role::$role, $name, $above)),+];
+    };
+}
+
+roles! {
+    Hips: "hips", None;
+    LeftUpperLeg: "leftUpperLeg", Some(Hips);
+    RightUpperLeg: "rightUpperLeg", Some(Hips);
+    LeftLowerLeg: "leftLowerLeg", Some(LeftUpperLeg);
+    RightLowerLeg: "rightLowerLeg", Some(RightUpperLeg);
+    LeftFoot: "leftFoot", Some(LeftLowerLeg);
+    RightFoot: "rightFoot", Some(RightLowerLeg);
+    Spine: "spine", Some(Hips);
+    Chest: "chest", Some(Spine);
+    Neck: "neck", Some(UpperChest);
+    Head: "head", Some(Neck);
+    LeftShoulder: "leftShoulder", Some(UpperChest);
+    RightShoulder: "rightShoulder", Some(UpperChest);
+    LeftUpperArm: "leftUpperArm", Some(LeftShoulder);
+    RightUpperArm: "rightUpperArm", Some(RightShoulder);
+    LeftLowerArm: "leftLowerArm", Some(LeftUpperArm);
+    RightLowerArm: "rightLowerArm", Some(RightUpperArm);
+    LeftHand: "leftHand", Some(LeftLowerArm);
+    RightHand: "rightHand", Some(RightLowerArm);
+    LeftToes: "leftToes", Some(LeftFoot);
+    RightToes: "rightToes", Some(RightFoot);
+    LeftEye: "leftEye", Some(Head);
+    RightEye: "rightEye", Some(Head);
+    Jaw: "jaw", Some(Head);
+    LeftThumbMetacarpal: "leftThumbMetacarpal", Some(LeftHand);
+    LeftThumbProximal: "leftThumbProximal", Some(LeftThumbMetacarpal);
+    LeftThumbDistal: "leftThumbDistal", Some(LeftThumbProximal);
+    LeftIndexProximal: "leftIndexProximal", Some(LeftHand);
+    LeftIndexIntermediate: "leftIndexIntermediate", Some(LeftIndexProximal);
+    LeftIndexDistal: "leftIndexDistal", Some(LeftIndexIntermediate);
+    LeftMiddleProximal: "leftMiddleProximal", Some(LeftHand);
+    LeftMiddleIntermediate: "leftMiddleIntermediate", Some(LeftMiddleProximal);
+    LeftMiddleDistal: "leftMiddleDistal", Some(LeftMiddleIntermediate);
+    LeftRingProximal: "leftRingProximal", Some(LeftHand);
+    LeftRingIntermediate: "leftRingIntermediate", Some(LeftRingProximal);
+    LeftRingDistal: "leftRingDistal", Some(LeftRingIntermediate);
+    LeftLittleProximal: "leftLittleProximal", Some(LeftHand);
+    LeftLittleIntermediate: "leftLittleIntermediate", Some(LeftLittleProximal);
+    LeftLittleDistal: "leftLittleDistal", Some(LeftLittleIntermediate);
+    RightThumbMetacarpal: "rightThumbMetacarpal", Some(RightHand);
+    RightThumbProximal: "rightThumbProximal", Some(RightThumbMetacarpal);
+    RightThumbDistal: "rightThumbDistal", Some(RightThumbProximal);
+    RightIndexProximal: "rightIndexProximal", Some(RightHand);
+    RightIndexIntermediate: "rightIndexIntermediate", Some(RightIndexProximal);
+    RightIndexDistal: "rightIndexDistal", Some(RightIndexIntermediate);
+    RightMiddleProximal: "rightMiddleProximal", Some(RightHand);
+    RightMiddleIntermediate: "rightMiddleIntermediate", Some(RightMiddleProximal);
+    RightMiddleDistal: "rightMiddleDistal", Some(RightMiddleIntermediate);
+    RightRingProximal: "rightRingProximal", Some(RightHand);
+    RightRingIntermediate: "rightRingIntermediate", Some(RightRingProximal);
+    RightRingDistal: "rightRingDistal", Some(RightRingIntermediate);
+    RightLittleProximal: "rightLittleProximal", Some(RightHand);
+    RightLittleIntermediate: "rightLittleIntermediate", Some(RightLittleProximal);
+    RightLittleDistal: "rightLittleDistal", Some(RightLittleIntermediate);
+    UpperChest: "upperChest", Some(Chest);
 }
 
 use Role::*;
-
-/// Every role with its VRM 1.0 name and the role above it in the humanoid hierarchy, in Unity's order.
-const ROLES: [(Role, &str, Option<Role>); Role::COUNT] = [
-    (Hips, "hips", None),
-    (LeftUpperLeg, "leftUpperLeg", Some(Hips)),
-    (RightUpperLeg, "rightUpperLeg", Some(Hips)),
-    (LeftLowerLeg, "leftLowerLeg", Some(LeftUpperLeg)),
-    (RightLowerLeg, "rightLowerLeg", Some(RightUpperLeg)),
-    (LeftFoot, "leftFoot", Some(LeftLowerLeg)),
-    (RightFoot, "rightFoot", Some(RightLowerLeg)),
-    (Spine, "spine", Some(Hips)),
-    (Chest, "chest", Some(Spine)),
-    (Neck, "neck", Some(UpperChest)),
-    (Head, "head", Some(Neck)),
-    (LeftShoulder, "leftShoulder", Some(UpperChest)),
-    (RightShoulder, "rightShoulder", Some(UpperChest)),
-    (LeftUpperArm, "leftUpperArm", Some(LeftShoulder)),
-    (RightUpperArm, "rightUpperArm", Some(RightShoulder)),
-    (LeftLowerArm, "leftLowerArm", Some(LeftUpperArm)),
-    (RightLowerArm, "rightLowerArm", Some(RightUpperArm)),
-    (LeftHand, "leftHand", Some(LeftLowerArm)),
-    (RightHand, "rightHand", Some(RightLowerArm)),
-    (LeftToes, "leftToes", Some(LeftFoot)),
-    (RightToes, "rightToes", Some(RightFoot)),
-    (LeftEye, "leftEye", Some(Head)),
-    (RightEye, "rightEye", Some(Head)),
-    (Jaw, "jaw", Some(Head)),
-    (LeftThumbMetacarpal, "leftThumbMetacarpal", Some(LeftHand)),
-    (LeftThumbProximal, "leftThumbProximal", Some(LeftThumbMetacarpal)),
-    (LeftThumbDistal, "leftThumbDistal", Some(LeftThumbProximal)),
-    (LeftIndexProximal, "leftIndexProximal", Some(LeftHand)),
-    (LeftIndexIntermediate, "leftIndexIntermediate", Some(LeftIndexProximal)),
-    (LeftIndexDistal, "leftIndexDistal", Some(LeftIndexIntermediate)),
-    (LeftMiddleProximal, "leftMiddleProximal", Some(LeftHand)),
-    (LeftMiddleIntermediate, "leftMiddleIntermediate", Some(LeftMiddleProximal)),
-    (LeftMiddleDistal, "leftMiddleDistal", Some(LeftMiddleIntermediate)),
-    (LeftRingProximal, "leftRingProximal", Some(LeftHand)),
-    (LeftRingIntermediate, "leftRingIntermediate", Some(LeftRingProximal)),
-    (LeftRingDistal, "leftRingDistal", Some(LeftRingIntermediate)),
-    (LeftLittleProximal, "leftLittleProximal", Some(LeftHand)),
-    (LeftLittleIntermediate, "leftLittleIntermediate", Some(LeftLittleProximal)),
-    (LeftLittleDistal, "leftLittleDistal", Some(LeftLittleIntermediate)),
-    (RightThumbMetacarpal, "rightThumbMetacarpal", Some(RightHand)),
-    (RightThumbProximal, "rightThumbProximal", Some(RightThumbMetacarpal)),
-    (RightThumbDistal, "rightThumbDistal", Some(RightThumbProximal)),
-    (RightIndexProximal, "rightIndexProximal", Some(RightHand)),
-    (RightIndexIntermediate, "rightIndexIntermediate", Some(RightIndexProximal)),
-    (RightIndexDistal, "rightIndexDistal", Some(RightIndexIntermediate)),
-    (RightMiddleProximal, "rightMiddleProximal", Some(RightHand)),
-    (RightMiddleIntermediate, "rightMiddleIntermediate", Some(RightMiddleProximal)),
-    (RightMiddleDistal, "rightMiddleDistal", Some(RightMiddleIntermediate)),
-    (RightRingProximal, "rightRingProximal", Some(RightHand)),
-    (RightRingIntermediate, "rightRingIntermediate", Some(RightRingProximal)),
-    (RightRingDistal, "rightRingDistal", Some(RightRingIntermediate)),
-    (RightLittleProximal, "rightLittleProximal", Some(RightHand)),
-    (RightLittleIntermediate, "rightLittleIntermediate", Some(RightLittleProximal)),
-    (RightLittleDistal, "rightLittleDistal", Some(RightLittleIntermediate)),
-    (UpperChest, "upperChest", Some(Chest)),
-];
 
 /// The roles without which nothing can be deformed.
 pub const REQUIRED_ROLES: [Role; 6] = [Hips, Head, LeftUpperLeg, RightUpperLeg, LeftUpperArm, RightUpperArm];

@@ -1,6 +1,7 @@
 //! Joints as a tree, each with its full transform in rest pose (§IV-A).
 
 use crate::error::{Element, Error, ErrorKind, Named, Result};
+use crate::geometry::marked;
 use glam::{DMat4, DVec3};
 
 /// What a matrix's last row may be off 0 and 1, against its largest number: rounding. Seen: ±30 % changes no role.
@@ -77,26 +78,10 @@ impl Skeleton {
                 );
             }
         }
-        // A chain of parents longer than the number of joints runs in a circle. Depths are remembered, so that
-        // a long chain costs no more than a flat tree.
-        let mut settled = vec![false; count];
-        let mut path = Vec::new();
-        for start in 0..count {
-            path.clear();
-            let mut current = Some(start);
-            while let Some(joint) = current {
-                if settled[joint] {
-                    break;
-                }
-                if path.len() >= count {
-                    return bad(start, "its parents run in a circle: one of them must have none".to_string());
-                }
-                path.push(joint);
-                current = self.joints[joint].parent;
-            }
-            for &joint in &path {
-                settled[joint] = true;
-            }
+        // No way leads from a root to what is in a circle, or hangs from one.
+        let reached = marked(count, self.parents_first());
+        if let Some(joint) = reached.iter().position(|&is_reached| !is_reached) {
+            return bad(joint, "its parents run in a circle: one of them must have none".to_string());
         }
         Ok(())
     }

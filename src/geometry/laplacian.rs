@@ -3,12 +3,13 @@
 //!
 //! Pinkall and Polthier. Computing discrete minimal surfaces and their conjugates. Experimental Mathematics 2(1), 1993.
 
+use super::by_number;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use glam::DVec3;
 use std::sync::Arc;
@@ -83,27 +84,19 @@ pub fn cotangent_laplacian(positions: &[DVec3], triangles: &[[u32; 3]]) -> Lapla
             areas[corners[corner] as usize] += area / 3.0;
         }
     }
-    Laplacian { off_diagonal: sum_entries(positions.len(), &halves), diagonal, areas }
+    Laplacian { off_diagonal: sum_entries(positions.len(), halves.iter().copied()), diagonal, areas }
 }
 
 /// The entries by row and then column, one a pair; those of one pair are added in the order given.
-fn sum_entries(row_count: usize, entries: &[(u32, u32, f64)]) -> Vec<(u32, u32, f64)> {
-    let mut ends = vec![0usize; row_count + 1];
-    for &(row, ..) in entries {
-        ends[row as usize + 1] += 1;
-    }
-    for row in 0..row_count {
-        ends[row + 1] += ends[row];
-    }
-    let mut by_row = vec![(0u32, 0.0f64); entries.len()];
-    for &(row, column, value) in entries {
-        by_row[ends[row as usize]] = (column, value);
-        ends[row as usize] += 1;
-    }
-    let mut summed: Vec<(u32, u32, f64)> = Vec::with_capacity(entries.len() / 2 + 1);
-    let mut start = 0;
-    for (row, &end) in (0u32..).zip(&ends[..row_count]) {
-        let entries = &mut by_row[start..end];
+fn sum_entries(
+    row_count: usize,
+    entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
+) -> Vec<(u32, u32, f64)> {
+    let (starts, mut by_row) =
+        by_number(row_count, entries.map(|(row, column, value)| (row, (column, value))));
+    let mut summed: Vec<(u32, u32, f64)> = Vec::with_capacity(by_row.len() / 2 + 1);
+    for (row, ends) in (0..).zip(starts.windows(2)) {
+        let entries = &mut by_row[ends[0] as usize..ends[1] as usize];
         entries.sort_by_key(|&(column, _)| column);
         for &(column, value) in &*entries {
             match summed.last_mut() {
@@ -111,7 +104,6 @@ fn sum_entries(row_count: usize, entries: &[(u32, u32, f64)]) -> Vec<(u32, u32, 
                 _ => summed.push((row, column, value)),
             }
         }
-        start = end;
     }
     summed
 }
@@ -138,28 +130,18 @@ impl Symbolic {
         if lower.iter().any(|&(row, column, _)| row <= column || row as usize >= size) {
             return None;
         }
-        let entries = sum_entries(size, lower);
-        let count = entries.len() + size;
-        if i32::try_from(count).is_err() {
+        // A row of the lower triangle is a column of the upper one, and the diagonal comes last in both.
+        let diagonal = (0..size as u32).map(|row| (row, row, 0.0));
+        let entries = sum_entries(size, lower.iter().copied().chain(diagonal));
+        if i32::try_from(entries.len()).is_err() {
             return None;
         }
-        let mut starts = Vec::with_capacity(size + 1);
-        let mut rows = Vec::with_capacity(count);
-        let mut values = Vec::with_capacity(count);
-        let mut entries = entries.into_iter().peekable();
-        starts.push(0);
-        for column in 0..size as u32 {
-            // A row of the lower triangle is a column of the upper one.
-            while let Some((_, other, value)) = entries.next_if(|&(row, ..)| row == column) {
-                rows.push(other);
-                values.push(value);
-            }
-            rows.push(column);
-            values.push(0.0);
-            starts.push(rows.len() as u32);
-        }
+        let by_column = entries.iter().map(|&(column, row, value)| (column, (row, value)));
+        let (starts, entries) = by_number(size, by_column);
+        let (rows, values) = entries.into_iter().unzip();
         let upper = SymbolicSparseColMat::new_checked(size, size, starts, None, rows);
-        let factor = analyse(upper.as_ref())?;
+        let (ordering, how) = (SymmetricOrdering::Amd, CholeskySymbolicParams::default());
+        let factor = factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, ordering, how).ok()?;
         Some(Self(Arc::new(Pattern { upper, values, factor })))
     }
 
@@ -167,11 +149,6 @@ impl Symbolic {
     pub fn size(&self) -> usize {
         self.0.upper.ncols()
     }
-}
-
-fn analyse(upper: SymbolicSparseColMatRef<'_, u32>) -> Option<SymbolicCholesky<u32>> {
-    let params = CholeskySymbolicParams::default();
-    factorize_symbolic_cholesky(upper, Side::Upper, SymmetricOrdering::Amd, params).ok()
 }
 
 /// The Cholesky factor of a sparse symmetric positive definite matrix.
@@ -199,8 +176,15 @@ impl Cholesky {
         for (&end, &value) in pattern.upper.col_ptr()[1..].iter().zip(diagonal) {
             entries[end as usize - 1] = value;
         }
-        let mut values = vec![0.0; pattern.factor.len_val()];
-        factor(pattern, &entries, &mut values)?;
+        let factor = &pattern.factor;
+        let matrix = SparseColMatRef::new(pattern.upper.as_ref(), &entries);
+        let (regularization, how) = (LltRegularization::default(), Spec::default());
+        let mut memory = MemBuffer::new(factor.factorize_numeric_llt_scratch::<f64>(Par::Seq, how));
+        let memory = MemStack::new(&mut memory);
+        let mut values = vec![0.0; factor.len_val()];
+        factor
+            .factorize_numeric_llt(&mut values, matrix, Side::Upper, regularization, Par::Seq, memory, how)
+            .ok()?;
         // Comparisons with what is not a number pass unseen.
         let is_finite = values.iter().all(|value| value.is_finite());
         is_finite.then(|| Self { symbolic: symbolic.clone(), values })
@@ -218,41 +202,15 @@ impl Cholesky {
         if size == 0 {
             return;
         }
+        let factor = &self.symbolic.0.factor;
         for block in columns.chunks_mut(COLUMNS * size) {
-            solve_block(&self.symbolic.0, &self.values, block);
+            let count = block.len() / size;
+            let mut memory = MemBuffer::new(factor.solve_in_place_scratch::<f64>(count, Par::Seq));
+            let memory = MemStack::new(&mut memory);
+            let block = MatMut::from_column_major_slice_mut(block, size, count);
+            LltRef::new(factor, &self.values).solve_in_place_with_conj(Conj::No, block, Par::Seq, memory);
         }
     }
-}
-
-fn factor(pattern: &Pattern, entries: &[f64], values: &mut [f64]) -> Option<()> {
-    let matrix = SparseColMatRef::new(pattern.upper.as_ref(), entries);
-    let mut memory =
-        MemBuffer::new(pattern.factor.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()));
-    pattern
-        .factor
-        .factorize_numeric_llt(
-            values,
-            matrix,
-            Side::Upper,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Spec::default(),
-        )
-        .is_ok()
-        .then_some(())
-}
-
-fn solve_block(pattern: &Pattern, values: &[f64], columns: &mut [f64]) {
-    let size = pattern.upper.ncols();
-    let count = columns.len() / size;
-    let mut memory = MemBuffer::new(pattern.factor.solve_in_place_scratch::<f64>(count, Par::Seq));
-    LltRef::new(&pattern.factor, values).solve_in_place_with_conj(
-        Conj::No,
-        MatMut::from_column_major_slice_mut(columns, size, count),
-        Par::Seq,
-        MemStack::new(&mut memory),
-    );
 }
 
 #[cfg(test)]

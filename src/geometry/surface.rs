@@ -58,6 +58,9 @@ pub struct Closest {
     pub barycentric: [f64; 3],
 }
 
+/// The square of the distance to a triangle, its index as given, its closest point and where that is; normalised.
+type Near = (f64, u32, DVec3, [f64; 3]);
+
 /// Triangles ready for rays and closest points.
 ///
 /// Coordinates are normalised to the unit box inside, so that nothing depends on the model's unit.
@@ -191,42 +194,17 @@ impl Surface {
     }
 
     fn closest_from(&self, p: DVec3, guess: Option<u32>) -> Option<Closest> {
-        if self.is_empty() || !p.is_finite() {
-            return None;
-        }
-        let p = (p - self.centre) * self.scale;
-        let at_slot = |slot: u32| {
-            let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
-            (p.distance_squared(point), self.triangles[slot as usize], point, barycentric)
-        };
-        let mut best = guess.map_or((f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]), at_slot);
-        let mut stack = Stack::new();
-        stack.push(ROOT, 0.0);
-        while let Some((child, square)) = stack.pop() {
-            if f64::from(square) > best.0 {
-                continue;
+        let p = self.searched(p)?;
+        let nowhere = (f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]);
+        let mut best = guess.map_or(nowhere, |slot| self.nearest_of(slot as usize, p));
+        self.walk_near(p, best.0, |slot| {
+            let found = self.nearest_of(slot, p);
+            if (found.0, found.1) < (best.0, best.1) {
+                best = found;
             }
-            if child.count > 0 {
-                for slot in child.first..child.first + child.count {
-                    let found = at_slot(slot);
-                    if (found.0, found.1) < (best.0, best.1) {
-                        best = found;
-                    }
-                }
-            } else {
-                let node = &self.nodes[child.first as usize];
-                let squares = node.squares(p);
-                // What is further away than the best is not even put down.
-                let least = (best.0 as f32).next_up();
-                stack.push_all(&node.children, squares, node.is_there() & squares.cmple(Vec4::splat(least)));
-            }
-        }
-        Some(Closest {
-            point: best.2 / self.scale + self.centre,
-            distance: best.0.sqrt() / self.scale,
-            triangle: best.1 as usize,
-            barycentric: best.3,
-        })
+            best.0
+        });
+        Some(self.closest(best))
     }
 
     /// Whether any point of the surface is within `reach` of `p`; false for an empty surface.
@@ -251,38 +229,78 @@ impl Surface {
     }
 
     /// Calls `visit` for the closest point of every triangle within `reach` of `p`, the nearest boxes first, until it says
-    /// false.
+    /// false: then for what is left of a box.
     fn visit_within(&self, p: DVec3, reach: f64, mut visit: impl FnMut(Closest) -> bool) {
-        if self.is_empty() || !p.is_finite() {
-            return;
-        }
-        let p = (p - self.centre) * self.scale;
+        let Some(p) = self.searched(p) else { return };
         let limit = reach * self.scale;
+        let mut square = limit * limit;
+        self.walk_near(p, square, |slot| {
+            let near = self.nearest_of(slot, p);
+            let goes_on = near.0.sqrt() > limit || visit(self.closest(near));
+            if !goes_on {
+                square = f64::NEG_INFINITY;
+            }
+            square
+        });
+    }
+
+    /// `p` in the unit box; `None` where nothing is near it.
+    fn searched(&self, p: DVec3) -> Option<DVec3> {
+        (!self.is_empty() && p.is_finite()).then(|| (p - self.centre) * self.scale)
+    }
+
+    /// The point of the triangle in `slot` that is closest to a normalised `p`.
+    #[inline(always)]
+    fn nearest_of(&self, slot: usize, p: DVec3) -> Near {
+        let (point, barycentric) = closest_on_triangle(p, &self.corners[slot]);
+        (p.distance_squared(point), self.triangles[slot], point, barycentric)
+    }
+
+    /// The same in the model's units.
+    fn closest(&self, (square, triangle, point, barycentric): Near) -> Closest {
+        Closest {
+            point: point / self.scale + self.centre,
+            distance: square.sqrt() / self.scale,
+            triangle: triangle as usize,
+            barycentric,
+        }
+    }
+
+    /// Calls `visit` for the slots of boxes that are no further from a normalised `p` than the root of `limit`, the nearest
+    /// first, where `visit` returns the new limit.
+    #[inline(always)]
+    fn walk_near(&self, p: DVec3, limit: f64, mut visit: impl FnMut(usize) -> f64) {
+        // What is further away than the limit is not even put down.
+        let single = |limit: f64| (limit as f32).next_up();
+        let boxes = |node: &Node, limit: f32| {
+            let squares = node.squares(p);
+            (squares, node.is_there() & squares.cmple(Vec4::splat(limit)))
+        };
+        self.walk(single(limit), boxes, |slot| single(visit(slot)));
+    }
+
+    /// Calls `visit` for the slots of boxes that are no further away than `limit`, the nearest first, where `visit` returns the
+    /// new limit. `boxes`: how far away those of a node are, and which of them are near enough.
+    #[inline(always)]
+    fn walk(
+        &self,
+        mut limit: f32,
+        boxes: impl Fn(&Node, f32) -> (Vec4, BVec4A),
+        mut visit: impl FnMut(usize) -> f32,
+    ) {
         let mut stack = Stack::new();
         stack.push(ROOT, 0.0);
-        while let Some((child, _)) = stack.pop() {
-            if child.count == 0 {
-                let node = &self.nodes[child.first as usize];
-                let squares = node.squares(p);
-                let near = squares.cmple(Vec4::splat(((limit * limit) as f32).next_up()));
-                stack.push_all(&node.children, squares, node.is_there() & near);
+        while let Some((child, distance)) = stack.pop() {
+            if distance > limit {
                 continue;
             }
+            if child.count == 0 {
+                let node = &self.nodes[child.first as usize];
+                let (distances, are_near) = boxes(node, limit);
+                stack.push_all(&node.children, distances, are_near);
+            }
             for slot in child.first..child.first + child.count {
-                let (point, barycentric) = closest_on_triangle(p, &self.corners[slot as usize]);
-                let distance = p.distance(point);
-                if distance > limit {
-                    continue;
-                }
-                let closest = Closest {
-                    point: point / self.scale + self.centre,
-                    distance: distance / self.scale,
-                    triangle: self.triangles[slot as usize] as usize,
-                    barycentric,
-                };
-                if !visit(closest) {
-                    return;
-                }
+                limit = visit(slot as usize);
             }
         }
     }
@@ -308,27 +326,15 @@ impl Surface {
             return;
         };
         let mut way = line.way_to(t_max);
-        let mut stack = Stack::new();
-        stack.push(ROOT, 0.0);
-        while let Some((child, enters)) = stack.pop() {
-            if enters > way {
-                continue;
+        let boxes = |node: &Node, way: f32| node.enters(&line.slopes, way);
+        self.walk(way, boxes, |slot| {
+            let hit = ray.meets(&self.corners[slot], self.triangles[slot], every_crossing);
+            if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
+                t_max = visit(hit);
+                way = line.way_to(t_max);
             }
-            if child.count == 0 {
-                let node = &self.nodes[child.first as usize];
-                let (enters, is_met) = node.enters(&line.slopes, way);
-                stack.push_all(&node.children, enters, is_met);
-                continue;
-            }
-            for slot in child.first..child.first + child.count {
-                let hit =
-                    ray.meets(&self.corners[slot as usize], self.triangles[slot as usize], every_crossing);
-                if let Some(hit) = hit.filter(|hit| hit.t <= t_max) {
-                    t_max = visit(hit);
-                    way = line.way_to(t_max);
-                }
-            }
-        }
+            way
+        });
     }
 }
 
