@@ -83,6 +83,12 @@ use Role::*;
 /// The roles without which nothing can be deformed.
 pub const REQUIRED_ROLES: [Role; 6] = [Hips, Head, LeftUpperLeg, RightUpperLeg, LeftUpperArm, RightUpperArm];
 
+/// The roles of the left leg from the hip joint down.
+pub const LEFT_LEG: [Role; 4] = [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes];
+
+/// The roles of the left arm from the collarbone on.
+pub const LEFT_ARM: [Role; 4] = [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand];
+
 /// The roles of each finger of the left hand from its root to its tip, thumb first.
 pub const LEFT_FINGERS: [[Role; 3]; 5] = [
     [LeftThumbMetacarpal, LeftThumbProximal, LeftThumbDistal],
@@ -187,6 +193,16 @@ impl Humanoid {
     /// Gives `role` to `joint`, or takes it from every joint.
     pub fn set(&mut self, role: Role, joint: impl Into<Option<usize>>) {
         self.joints[role as usize] = joint.into();
+    }
+
+    /// Does the same for several roles of the left side, or their twins unless `left`; for as many as there are joints.
+    pub(crate) fn set_on_side<Joint: Into<Option<usize>>>(
+        &mut self,
+        left: bool,
+        roles: impl IntoIterator<Item = Role>,
+        joints: impl IntoIterator<Item = Joint>,
+    ) {
+        roles.into_iter().zip(joints).for_each(|(role, joint)| self.set(role.on_side(left), joint));
     }
 
     /// The roles that a joint plays, with their joints, in Unity's order.

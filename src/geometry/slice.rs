@@ -1,9 +1,7 @@
 //! Plane cuts of a mesh, joined into outlines, and how far these reach around a point.
 
-use super::bounds::range;
-use super::groups::Groups;
-use super::weld::Weld;
 use super::whole::{floor, round};
+use super::{Groups, Weld, by_number, range};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
@@ -249,18 +247,12 @@ impl Cut {
                 groups.join(pair[0] as u32 as usize, pair[1] as u32 as usize);
             }
         }
-        let mut outlines: Vec<Outline> = Vec::new();
-        let mut numbers = vec![usize::MAX; self.segments.len()];
-        for (segment, &points) in self.segments.iter().enumerate() {
-            let number = &mut numbers[groups.least(segment)];
-            if *number == usize::MAX {
-                *number = outlines.len();
-                outlines.push(Outline::default());
-            }
-            outlines[*number].segments.push(points);
-        }
-        outlines.retain(|outline| outline.segments.len() >= FEWEST_SEGMENTS);
-        outlines
+        let least: Vec<u32> = (0..self.segments.len()).map(|segment| groups.least(segment) as u32).collect();
+        let (starts, segments) =
+            by_number(least.len(), least.iter().copied().zip(self.segments.iter().copied()));
+        let outlines = starts.windows(2).map(|ends| &segments[ends[0] as usize..ends[1] as usize]);
+        let outlines = outlines.filter(|segments| segments.len() >= FEWEST_SEGMENTS);
+        outlines.map(|segments| Outline { segments: segments.to_vec() }).collect()
     }
 }
 

@@ -30,17 +30,10 @@ const NO_SLOT: u16 = PIECE as u16;
 #[derive(Clone, Debug, Default)]
 pub struct RestTriangles {
     pieces: Vec<Piece>,
-    /// Of each mesh, its first piece; one more than there are meshes.
-    mesh_pieces: Vec<u32>,
+    /// The pieces of each mesh.
+    mesh_pieces: Vec<Range<usize>>,
     /// For each vertex which of its piece's sums are its own: vertices at one place share them.
     slots: Vec<u16>,
-    batches: Vec<Batch>,
-    corners: Vec<Corner>,
-    groups: Vec<Group>,
-    runs: Vec<Run>,
-    /// Run after run, which of the batch's triangles are around the vertex, ascending; twice where it is two of a triangle's
-    /// corners.
-    around: Vec<u16>,
     /// From model units to edges of about 1, so that no unit is out of a float's range. A power of two, by which nothing is
     /// rounded: a mirrored mesh, wound the other way, may have another one.
     scale: f32,
@@ -49,17 +42,19 @@ pub struct RestTriangles {
 /// Vertices that follow each other in a mesh.
 #[derive(Clone, Debug)]
 struct Piece {
-    vertices: Range<u32>,
-    batches: Range<u32>,
+    vertices: Range<usize>,
+    batches: Vec<Batch>,
 }
 
 /// Triangles around a piece's vertices, no more than there is room for.
 #[derive(Clone, Debug)]
 struct Batch {
-    corners: Range<u32>,
-    groups: Range<u32>,
-    runs: Range<u32>,
-    around: Range<u32>,
+    corners: Box<[Corner]>,
+    groups: Box<[Group]>,
+    runs: Box<[Run]>,
+    /// Run after run, which of the batch's triangles are around the vertex, ascending; twice where it is two of a triangle's
+    /// corners.
+    around: Box<[u16]>,
 }
 
 /// How many of a batch's triangles are around the vertex of a slot.
@@ -181,12 +176,8 @@ impl RestTriangles {
         let total: f64 = triangles.iter().map(|&corners| edges(positions, corners).0.length()).sum();
         let scale = 2f64.powi((triangles.len() as f64 / total).log2().round() as i32);
         let around = Around::of(&triangles, weld);
-        let mut rest = Self {
-            slots: vec![NO_SLOT; positions.len()],
-            scale: scale as f32,
-            mesh_pieces: vec![0],
-            ..Self::default()
-        };
+        let slots = vec![NO_SLOT; positions.len()];
+        let mut rest = Self { slots, scale: scale as f32, ..Self::default() };
         let (low, high) = bounds(positions.iter().map(|p| p.as_dvec3()));
         let mut builder = Builder {
             positions,
@@ -200,28 +191,23 @@ impl RestTriangles {
             corners: vec![u16::MAX; positions.len()],
         };
         for mesh in mesh_starts.windows(2) {
+            let first_piece = rest.pieces.len();
             for first in (mesh[0]..mesh[1]).step_by(PIECE) {
                 builder.add(first..(first + PIECE).min(mesh[1]), &around, &mut rest);
             }
-            rest.mesh_pieces.push(rest.pieces.len() as u32);
+            rest.mesh_pieces.push(first_piece..rest.pieces.len());
         }
-        // Kept as long as the deformer.
-        rest.groups.shrink_to_fit();
-        rest.corners.shrink_to_fit();
-        rest.runs.shrink_to_fit();
-        rest.around.shrink_to_fit();
         rest
     }
 
     /// The pieces of a mesh.
     pub fn pieces(&self, mesh: usize) -> Range<usize> {
-        self.mesh_pieces[mesh] as usize..self.mesh_pieces[mesh + 1] as usize
+        self.mesh_pieces[mesh].clone()
     }
 
     /// A piece's vertices, as indices into all.
     pub fn vertices(&self, piece: usize) -> Range<usize> {
-        let Range { start, end } = self.pieces[piece].vertices;
-        start as usize..end as usize
+        self.pieces[piece].vertices.clone()
     }
 
     /// What happens around each vertex of a piece.
@@ -232,12 +218,11 @@ impl RestTriangles {
         let Piece { vertices, batches } = &self.pieces[piece];
         room.sums.fill([Vec4::ZERO; 3]);
         let (size, share) = (moved.size, self.scale * moved.share);
-        for batch in &self.batches[range(batches)] {
-            for (point, corner) in room.points.iter_mut().zip(&self.corners[range(&batch.corners)]) {
+        for Batch { corners, groups, runs, around } in batches {
+            for (point, corner) in room.points.iter_mut().zip(corners) {
                 let displacement = moved.displacements[corner.vertex as usize];
                 *point = size * corner.at.extend(0.0) + share * displacement.extend(0.0);
             }
-            let groups = &self.groups[range(&batch.groups)];
             for (group, edges) in groups.iter().zip(&mut room.edges) {
                 *edges = group.edges(&room.points);
             }
@@ -250,8 +235,8 @@ impl RestTriangles {
             for ((group, edges), gradients) in groups.iter().zip(&room.edges).zip(fours) {
                 *gradients = group.gradients(edges);
             }
-            let mut around = &self.around[range(&batch.around)];
-            for run in &self.runs[range(&batch.runs)] {
+            let mut around = &around[..];
+            for run in runs {
                 let (of_run, rest) = around.split_at(run.count.into());
                 around = rest;
                 let sum = &mut room.sums[usize::from(run.slot) & (PIECE - 1)];
@@ -265,7 +250,7 @@ impl RestTriangles {
                 *sum = [x, y, z];
             }
         }
-        Jacobians { sums: &room.sums, slots: &self.slots[range(vertices)] }
+        Jacobians { sums: &room.sums, slots: &self.slots[vertices.clone()] }
     }
 }
 
@@ -305,10 +290,6 @@ impl Group {
         }
         gradients
     }
-}
-
-fn range(of: &Range<u32>) -> Range<usize> {
-    of.start as usize..of.end as usize
 }
 
 /// From a triangle's first corner to the others.
@@ -398,65 +379,53 @@ impl Builder<'_> {
             rest.slots[vertex] = *slot;
         }
         triangles.sort_unstable();
-        let first = rest.batches.len() as u32;
-        for batch in triangles.chunks(BATCH) {
-            self.add_batch(batch, rest);
-        }
+        let batches = triangles.chunks(BATCH).map(|triangles| self.batch(triangles)).collect();
         for vertex in vertices.clone() {
             self.slots[self.weld.representative[vertex] as usize] = NO_SLOT;
         }
-        rest.pieces.push(Piece {
-            vertices: vertices.start as u32..vertices.end as u32,
-            batches: first..rest.batches.len() as u32,
-        });
+        rest.pieces.push(Piece { vertices, batches });
     }
 
-    fn add_batch(&mut self, triangles: &[u32], rest: &mut RestTriangles) {
-        let (first_corner, first_group) = (rest.corners.len(), rest.groups.len() as u32);
+    fn batch(&mut self, triangles: &[u32]) -> Batch {
+        let mut corners = Vec::new();
+        let mut groups = vec![Group::NONE; triangles.len().div_ceil(LANES)];
         // Slots and the triangles around them, as one number each, which is sorted faster than two.
         let mut around: Vec<u32> = Vec::with_capacity(3 * triangles.len());
-        for (number, four) in triangles.chunks(LANES).enumerate() {
-            let mut group = Group::NONE;
-            for (lane, &triangle) in four.iter().enumerate() {
-                let corners = self.triangles[triangle as usize];
-                for (corner, &vertex) in corners.iter().enumerate() {
-                    let of_batch = &mut self.corners[vertex as usize];
-                    if *of_batch == u16::MAX {
-                        *of_batch = (rest.corners.len() - first_corner) as u16;
-                        let at = self.positions[vertex as usize].as_dvec3() - self.middle;
-                        rest.corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
-                    }
-                    group.corners[corner][lane] = *of_batch;
-                    let slot = self.slots[self.weld.representative[vertex as usize] as usize];
-                    if slot != NO_SLOT {
-                        around.push((u32::from(slot) << 16) | (LANES * number + lane) as u32);
-                    }
+        for (number, &triangle) in triangles.iter().enumerate() {
+            let (group, lane) = (&mut groups[number / LANES], number % LANES);
+            let of_triangle = self.triangles[triangle as usize];
+            for (corner, &vertex) in of_triangle.iter().enumerate() {
+                let of_batch = &mut self.corners[vertex as usize];
+                if *of_batch == u16::MAX {
+                    *of_batch = corners.len() as u16;
+                    let at = self.positions[vertex as usize].as_dvec3() - self.middle;
+                    corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
                 }
-                let (rows, area) = self.rows(corners);
-                group.areas[lane] = area;
-                for (row, of_group) in rows.iter().zip(&mut group.rows) {
-                    for (axis, lanes) in of_group.iter_mut().enumerate() {
-                        lanes[lane] = row[axis];
-                    }
+                group.corners[corner][lane] = *of_batch;
+                let slot = self.slots[self.weld.representative[vertex as usize] as usize];
+                if slot != NO_SLOT {
+                    around.push((u32::from(slot) << 16) | number as u32);
                 }
             }
-            rest.groups.push(group);
+            let (rows, area) = self.rows(of_triangle);
+            group.areas[lane] = area;
+            for (row, of_group) in rows.iter().zip(&mut group.rows) {
+                for (axis, lanes) in of_group.iter_mut().enumerate() {
+                    lanes[lane] = row[axis];
+                }
+            }
         }
-        for corner in &rest.corners[first_corner..] {
+        for corner in &corners {
             self.corners[corner.vertex as usize] = u16::MAX;
         }
         around.sort_unstable();
-        let (first_run, first_around) = (rest.runs.len() as u32, rest.around.len() as u32);
-        for of_slot in around.chunk_by(|a, b| a >> 16 == b >> 16) {
-            rest.runs.push(Run { slot: (of_slot[0] >> 16) as u16, count: of_slot.len() as u16 });
-            rest.around.extend(of_slot.iter().map(|&at| at as u16));
+        let run = |of_slot: &[u32]| Run { slot: (of_slot[0] >> 16) as u16, count: of_slot.len() as u16 };
+        Batch {
+            corners: corners.into(),
+            groups: groups.into(),
+            runs: around.chunk_by(|a, b| a >> 16 == b >> 16).map(run).collect(),
+            around: around.iter().map(|&at| at as u16).collect(),
         }
-        rest.batches.push(Batch {
-            corners: first_corner as u32..rest.corners.len() as u32,
-            groups: first_group..rest.groups.len() as u32,
-            runs: first_run..rest.runs.len() as u32,
-            around: first_around..rest.around.len() as u32,
-        });
     }
 
     /// See [`Group::rows`]; and twice the area.

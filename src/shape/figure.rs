@@ -73,10 +73,7 @@ impl Figure {
         let joint_roles = fold_joints(character);
         let (role_weights, extra_weight, main) = fold_weights(character, &joint_roles);
         for (kind, weights) in kinds.iter_mut().zip(&role_weights) {
-            let share = |choose: fn(Role) -> bool| -> f64 {
-                weights.iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
-            };
-            *kind = kind.of_vertex(share(Role::is_head), share(Role::is_limb));
+            *kind = kind.of_vertex(share_of(weights, Role::is_head), share_of(weights, Role::is_limb));
         }
         copy_kinds_of_drawn(&mut kinds, &positions, &triangles);
         Ok(Self {
@@ -125,7 +122,7 @@ impl Figure {
 
     /// The part of a vertex's weight that `choose` accepts, 0 to 1.
     pub fn weight_of(&self, vertex: usize, choose: impl Fn(Role) -> bool) -> f64 {
-        self.role_weights[vertex].iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
+        share_of(&self.role_weights[vertex], choose)
     }
 
     /// Triangles all of whose corners `choose` accepts.
@@ -133,6 +130,11 @@ impl Figure {
         let chosen: Vec<bool> = (0..self.positions.len()).map(choose).collect();
         triangles_where(&self.triangles, |vertex| chosen[vertex])
     }
+}
+
+/// The sum of those of a vertex's `weights` whose roles `choose` accepts.
+pub fn share_of(weights: &[(Role, f64)], choose: impl Fn(Role) -> bool) -> f64 {
+    weights.iter().filter(|&&(role, _)| choose(role)).map(|&(_, weight)| weight).sum()
 }
 
 /// Meshes may share their arrays, each with triangles of its own: then each has copies of what another one draws. Such
@@ -160,12 +162,11 @@ pub fn extent(positions: &[DVec3]) -> (f64, f64) {
 
 /// For every joint the role it folds into.
 fn fold_joints(character: &Character) -> Vec<Option<Role>> {
-    let mut own = vec![None; character.skeleton.joints.len()];
+    let mut folded = vec![None; character.skeleton.joints.len()];
     // Where one joint plays two roles, the one nearer to the hips moves it.
     for (role, joint) in character.humanoid.iter() {
-        own[joint].get_or_insert(role);
+        folded[joint].get_or_insert(role);
     }
-    let mut folded = own.clone();
     for joint in character.skeleton.parents_first() {
         if folded[joint].is_none() {
             folded[joint] = character.skeleton.joints[joint].parent.and_then(|parent| folded[parent]);

@@ -8,6 +8,7 @@
 
 use super::figure::Figure;
 use crate::character::Role;
+use crate::character::humanoid::LEFT_LEG;
 use glam::{DMat3, DVec3};
 
 /// A leg in the canonical frame, at rest.
@@ -47,17 +48,12 @@ impl Leg {
 
     /// The leg of `figure` on one side; none where a joint is missing or nothing is its foot's.
     fn of(figure: &Figure, [upper, lower, foot, toes]: [Role; 4]) -> Option<Self> {
-        let joint = |role: Role| figure.humanoid.joint(role).map(|joint| figure.joints[joint]);
-        let of_foot = |vertex: &usize| {
-            let weights = figure.role_weights[*vertex].iter();
-            weights.filter(|(role, _)| *role == foot || *role == toes).map(|(_, weight)| weight).sum::<f64>()
-                > 0.5
-        };
-        let foot_vertices = (0..figure.positions.len()).filter(of_foot);
-        let leg = Self {
-            joints: [joint(upper)?, joint(lower)?, joint(foot)?],
-            foot: foot_vertices.map(|vertex| figure.positions[vertex]).collect(),
-        };
+        let joint = |role: Role| figure.role_position(role);
+        let joints = [joint(upper)?, joint(lower)?, joint(foot)?];
+        let is_of_foot =
+            |vertex: &usize| figure.weight_of(*vertex, |role| role == foot || role == toes) > 0.5;
+        let of_foot = (0..figure.positions.len()).filter(is_of_foot);
+        let leg = Self { joints, foot: of_foot.map(|vertex| figure.positions[vertex]).collect() };
         (!leg.foot.is_empty()).then_some(leg)
     }
 
@@ -100,12 +96,8 @@ pub fn sole_clearance(legs: &[Leg; 2], ground: f64) -> f64 {
 
 /// The same of `figure`, as a share of its height; none where a leg is not complete.
 pub fn clearance_of(figure: &Figure, ground: f64) -> Option<f64> {
-    use Role::{
-        LeftFoot, LeftLowerLeg, LeftToes, LeftUpperLeg, RightFoot, RightLowerLeg, RightToes, RightUpperLeg,
-    };
-    let left = Leg::of(figure, [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes])?;
-    let right = Leg::of(figure, [RightUpperLeg, RightLowerLeg, RightFoot, RightToes])?;
-    let clearance = sole_clearance(&[left, right], ground) / figure.height();
+    let [left, right] = [true, false].map(|left| Leg::of(figure, LEFT_LEG.map(|role| role.on_side(left))));
+    let clearance = sole_clearance(&[left?, right?], ground) / figure.height();
     clearance.is_finite().then_some(clearance)
 }
 

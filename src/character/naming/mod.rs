@@ -6,7 +6,7 @@
 
 mod words;
 
-use super::humanoid::LEFT_FINGERS;
+use super::humanoid::{LEFT_ARM, LEFT_FINGERS, LEFT_LEG};
 use super::{Humanoid, Role, Skeleton};
 pub(crate) use words::is_helper;
 use words::{FINGERS, Finger, Part, Reading, Side, read_all, words};
@@ -76,13 +76,13 @@ struct NamedSkeleton<'a> {
 impl NamedSkeleton<'_> {
     /// Joints whose names say `part` and `side`, best first: by word, then by number, then from the root.
     fn all(&self, part: Part, side: Option<Side>) -> Vec<usize> {
-        let rank = |joint: usize| self.readings[joint].part.map_or(u8::MAX, |(_, rank)| rank);
         let mut found: Vec<usize> = (0..self.readings.len())
             .filter(|&joint| {
                 let reading = &self.readings[joint];
                 reading.side == side && reading.part.is_some_and(|(named, _)| named == part)
             })
             .collect();
+        let rank = |joint: usize| self.readings[joint].part.map(|(_, rank)| rank);
         found.sort_by_key(|&joint| (rank(joint), self.readings[joint].number(), self.depths[joint], joint));
         found
     }
@@ -146,10 +146,7 @@ impl NamedSkeleton<'_> {
             self.first_below(&feet, lower.or(upper)).or_else(|| feet.first().copied()).or(foot_by_chain);
         let toes = all(Part::Toes);
         let toes = self.first_below(&toes, foot).or_else(|| self.first_below(&toes, lower)).or(toes_by_chain);
-        humanoid.set(side.of(Role::LeftUpperLeg), upper);
-        humanoid.set(side.of(Role::LeftLowerLeg), lower);
-        humanoid.set(side.of(Role::LeftFoot), foot);
-        humanoid.set(side.of(Role::LeftToes), toes);
+        humanoid.set_on_side(side == Side::Left, LEFT_LEG, [upper, lower, foot, toes]);
     }
 
     fn arm(&self, humanoid: &mut Humanoid, side: Side) {
@@ -187,10 +184,7 @@ impl NamedSkeleton<'_> {
             let above = |&shoulder: &usize| shoulder != upper && self.below(upper, shoulder);
             shoulders.iter().copied().find(above)
         });
-        humanoid.set(side.of(Role::LeftShoulder), shoulder);
-        humanoid.set(side.of(Role::LeftUpperArm), upper);
-        humanoid.set(side.of(Role::LeftLowerArm), lower);
-        humanoid.set(side.of(Role::LeftHand), hand);
+        humanoid.set_on_side(side == Side::Left, LEFT_ARM, [shoulder, upper, lower, hand]);
         let Some(hand) = hand else { return };
         for finger in FINGERS {
             let named = all(Part::Finger(finger));
@@ -204,14 +198,11 @@ impl NamedSkeleton<'_> {
                     line.push(joint);
                 }
             }
-            let [first, second, third] = LEFT_FINGERS[finger as usize];
-            let roles: &[Role] = match (finger, line.len()) {
-                (Finger::Thumb, 2) => &[first, third],
-                _ => &[first, second, third],
-            };
-            for (&role, &joint) in roles.iter().zip(&line) {
-                humanoid.set(side.of(role), joint);
+            let mut roles = LEFT_FINGERS[finger as usize].to_vec();
+            if finger == Finger::Thumb && line.len() == 2 {
+                roles.remove(1);
             }
+            humanoid.set_on_side(side == Side::Left, roles, line);
         }
     }
 
@@ -302,7 +293,7 @@ pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
     if let Some(head) = humanoid.joint(Role::Head) {
         for side in [Side::Left, Side::Right] {
             let eye = named.first_below(&named.all(Part::Eye, Some(side)), Some(head));
-            humanoid.set(side.of(Role::LeftEye), eye);
+            humanoid.set_on_side(side == Side::Left, [Role::LeftEye], [eye]);
         }
         humanoid.set(Role::Jaw, named.first_below(&named.all(Part::Jaw, None), Some(head)));
     }

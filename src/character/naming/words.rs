@@ -1,19 +1,12 @@
 //! What the name of a joint says: which part of the body, which side, which numbers.
 
-use crate::character::{Role, Skeleton};
+use crate::character::Skeleton;
 use std::collections::BTreeMap;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Side {
     Left,
     Right,
-}
-
-impl Side {
-    /// The role on this side, from its left twin.
-    pub(super) fn of(self, left: Role) -> Role {
-        left.on_side(self == Side::Left)
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -262,9 +255,9 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
     let lacks = |words: &Vec<String>| [0, 1].map(|index| is_rule[index] && !marks[index](words));
     let lacking: Vec<[bool; 2]> = names.iter().map(lacks).collect();
     loop {
-        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         for first in names.iter().filter_map(|words| words.first()) {
-            *counts.entry(first.clone()).or_default() += 1;
+            *counts.entry(first).or_default() += 1;
         }
         let means_something = |word: &str| {
             side_of(word).is_some()
@@ -275,10 +268,10 @@ pub(super) fn read_all(skeleton: &Skeleton) -> Vec<Reading> {
         };
         let shared = counts
             .iter()
-            .find(|(word, count)| **count >= 8 && **count * 5 >= names.len() * 2 && !means_something(word));
+            .find(|(word, count)| **count >= 8 && **count * 5 >= names.len() * 2 && !means_something(word))
+            .map(|(word, _)| word.to_string());
         let numbered = |word: &str| ["bip", "character", "mixamorig", "armature", "rig"].contains(&word);
         let mut cut_any = false;
-        let shared = shared.map(|(word, _)| word.clone());
         for words in &mut names {
             let cut = words.first().is_some_and(|word| Some(word) == shared.as_ref() || numbered(word));
             if cut {

@@ -8,7 +8,7 @@ mod arms;
 mod legs;
 mod tree;
 
-use super::humanoid::LEFT_FINGERS;
+use super::humanoid::{LEFT_ARM, LEFT_FINGERS, LEFT_LEG};
 use super::{Humanoid, Mesh, Role, Skeleton};
 use glam::{DVec3, Vec3};
 use tree::Tree;
@@ -131,7 +131,6 @@ pub fn roles_from_tree(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> Humano
 }
 
 fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
-    use Role::*;
     skeleton.validate().ok()?;
     if up == DVec3::ZERO {
         return None;
@@ -165,23 +164,17 @@ fn find(skeleton: &Skeleton, meshes: &[Mesh], up: DVec3) -> Option<Humanoid> {
     }
     let mut humanoid = Humanoid::default();
     for (side, (leg, arm)) in legs.into_iter().zip(arms).enumerate() {
-        let role = |left: Role| left.on_side(side == 0);
-        for (left, joint) in [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes].into_iter().zip(leg) {
-            humanoid.set(role(left), joint);
-        }
-        for (left, joint) in [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand].into_iter().zip(arm) {
-            humanoid.set(role(left), joint);
-        }
+        let left = side == 0;
+        humanoid.set_on_side(left, LEFT_LEG, leg);
+        humanoid.set_on_side(left, LEFT_ARM, arm);
         let lines = arm[3].map(|hand| tree.fingers(hand)).unwrap_or_default();
         for (roles, line) in LEFT_FINGERS.into_iter().zip(lines) {
-            for (left, joint) in roles.into_iter().zip(line) {
-                humanoid.set(role(left), joint);
-            }
+            humanoid.set_on_side(left, roles, line);
         }
     }
     if let Some((neck, head)) = head {
-        humanoid.set(Neck, neck);
-        humanoid.set(Head, head);
+        humanoid.set(Role::Neck, neck);
+        humanoid.set(Role::Head, head);
     }
     Some(humanoid)
 }

@@ -10,7 +10,7 @@ use crate::geometry::{Weld, bounds, components};
 use crate::options::Options;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::figure::Figure;
+use crate::shape::figure::{Figure, share_of};
 use crate::shape::measured::is_of_head;
 use crate::shape::placement::{Bindings, Body, GroundContact, Placement, joint_bindings};
 use crate::shape::style::Style;
@@ -55,7 +55,7 @@ fn bindings(character: &Character, measured: &Measured, field: &BoneField) -> Bi
     let figure = &measured.figure;
     let bind = |p: DVec3, weights: &[(Role, f64)]| BoneBinding {
         weights: field.bone_weights(p, weights),
-        head: weights.iter().filter(|&&(role, _)| role.is_head()).map(|&(_, weight)| weight).sum(),
+        head: share_of(weights, Role::is_head),
         on_face: None,
     };
     let weights = figure.role_weights.iter();
