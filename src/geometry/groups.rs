@@ -3,6 +3,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 /// Things in groups that grow together, each known by its least member.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,12 +63,42 @@ pub fn merge_tree<Beside: Iterator<Item = u32>>(
     order.iter().enumerate().map(grow).collect()
 }
 
-/// Things in the order of the numbers below `count` that they have, those of one number in their own; with where those of each
-/// number start, one more than there are numbers.
+/// Things in the order of the numbers that they have: a row of them for each number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Rows<Thing> {
+    /// Where each row starts in `things`; one more than there are numbers.
+    pub starts: Vec<u32>,
+    /// The things, one row after the other.
+    pub things: Vec<Thing>,
+}
+
+impl<Thing> Rows<Thing> {
+    /// How many numbers there are.
+    pub fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Where the row of a number is in `things`.
+    pub fn range(&self, number: usize) -> Range<usize> {
+        self.starts[number] as usize..self.starts[number + 1] as usize
+    }
+
+    /// The row of a number.
+    pub fn of(&self, number: usize) -> &[Thing] {
+        &self.things[self.range(number)]
+    }
+
+    /// The same, to be changed.
+    pub fn of_mut(&mut self, number: usize) -> &mut [Thing] {
+        &mut self.things[self.starts[number] as usize..self.starts[number + 1] as usize]
+    }
+}
+
+/// Rows of things by the numbers below `count` that they have, those of one number in their own order.
 pub fn by_number<Thing: Copy + Default>(
     count: usize,
     things: impl Iterator<Item = (u32, Thing)> + Clone,
-) -> (Vec<u32>, Vec<Thing>) {
+) -> Rows<Thing> {
     let mut starts = vec![0u32; count + 1];
     things.clone().for_each(|(number, _)| starts[number as usize + 1] += 1);
     for number in 0..count {
@@ -80,7 +111,7 @@ pub fn by_number<Thing: Copy + Default>(
         sorted[*at as usize] = thing;
         *at += 1;
     }
-    (starts, sorted)
+    Rows { starts, things: sorted }
 }
 
 /// What it costs at least to reach each of `count` things; infinite where no way leads.

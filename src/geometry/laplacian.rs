@@ -3,7 +3,7 @@
 //!
 //! Pinkall and Polthier. Computing discrete minimal surfaces and their conjugates. Experimental Mathematics 2(1), 1993.
 
-use super::by_number;
+use super::{Rows, by_number};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::cholesky::{
@@ -92,17 +92,14 @@ fn sum_entries(
     row_count: usize,
     entries: impl Iterator<Item = (u32, u32, f64)> + Clone,
 ) -> Vec<(u32, u32, f64)> {
-    let (starts, mut by_row) =
-        by_number(row_count, entries.map(|(row, column, value)| (row, (column, value))));
-    let mut summed: Vec<(u32, u32, f64)> = Vec::with_capacity(by_row.len() / 2 + 1);
-    for (row, ends) in (0..).zip(starts.windows(2)) {
-        let entries = &mut by_row[ends[0] as usize..ends[1] as usize];
+    let mut rows = by_number(row_count, entries.map(|(row, column, value)| (row, (column, value))));
+    let mut summed: Vec<(u32, u32, f64)> = Vec::with_capacity(rows.things.len() / 2 + 1);
+    for row in 0..row_count {
+        let entries = rows.of_mut(row);
         entries.sort_by_key(|&(column, _)| column);
-        for &(column, value) in &*entries {
-            match summed.last_mut() {
-                Some(last) if (last.0, last.1) == (row, column) => last.2 += value,
-                _ => summed.push((row, column, value)),
-            }
+        for same in entries.chunk_by(|one, other| one.0 == other.0) {
+            let sum = same[1..].iter().fold(same[0].1, |sum, entry| sum + entry.1);
+            summed.push((row as u32, same[0].0, sum));
         }
     }
     summed
@@ -137,8 +134,8 @@ impl Symbolic {
             return None;
         }
         let by_column = entries.iter().map(|&(column, row, value)| (column, (row, value)));
-        let (starts, entries) = by_number(size, by_column);
-        let (rows, values) = entries.into_iter().unzip();
+        let Rows { starts, things } = by_number(size, by_column);
+        let (rows, values) = things.into_iter().unzip();
         let upper = SymbolicSparseColMat::new_checked(size, size, starts, None, rows);
         let (ordering, how) = (SymmetricOrdering::Amd, CholeskySymbolicParams::default());
         let factor = factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, ordering, how).ok()?;

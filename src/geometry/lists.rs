@@ -1,6 +1,7 @@
-//! Lists without repeats, marks of what is in a list, and where.
+//! Lists without repeats, marks of what is in a list and where, and lists by key.
 
 use super::NONE;
+use std::collections::BTreeMap;
 
 /// Each of `things` once, ascending.
 pub fn distinct<T: Ord>(things: impl IntoIterator<Item = T>) -> Vec<T> {
@@ -24,6 +25,13 @@ pub fn slots<'a>(count: usize, numbers: impl IntoIterator<Item = &'a u32>) -> Ve
     slots
 }
 
+/// Things by their keys, those of one key in their own order.
+pub fn by_key<Key: Ord, Thing>(things: impl IntoIterator<Item = (Key, Thing)>) -> BTreeMap<Key, Vec<Thing>> {
+    let mut all: BTreeMap<Key, Vec<Thing>> = BTreeMap::new();
+    things.into_iter().for_each(|(key, thing)| all.entry(key).or_default().push(thing));
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -33,5 +41,9 @@ mod tests {
         assert_eq!(distinct([3, 1, 3, 2, 1]), [1, 2, 3]);
         assert_eq!(marked(4, [2, 0, 2]), [true, false, true, false]);
         assert_eq!(slots(4, &[3, 1]), [NONE, 1, NONE, 0]);
+        assert_eq!(
+            by_key([(2, 'a'), (1, 'b'), (2, 'c')]),
+            BTreeMap::from([(1, vec!['b']), (2, vec!['a', 'c'])])
+        );
     }
 }

@@ -26,8 +26,8 @@ pub mod winding;
 
 pub use bounds::{Bounds, bounds, bounds_by_group, clusters, grown_clusters, range};
 pub use cells::CellMap;
-pub use groups::{Groups, by_number, least_costs, merge_tree};
-pub use lists::{distinct, marked, slots};
+pub use groups::{Groups, Rows, by_number, least_costs, merge_tree};
+pub use lists::{by_key, distinct, marked, slots};
 pub use mapped::{Mapped, Moved, outer};
 pub use means::{mean, median, upper_median};
 pub use point_tree::PointTree;

@@ -248,9 +248,8 @@ impl Cut {
             }
         }
         let least: Vec<u32> = (0..self.segments.len()).map(|segment| groups.least(segment) as u32).collect();
-        let (starts, segments) =
-            by_number(least.len(), least.iter().copied().zip(self.segments.iter().copied()));
-        let outlines = starts.windows(2).map(|ends| &segments[ends[0] as usize..ends[1] as usize]);
+        let rows = by_number(least.len(), least.iter().copied().zip(self.segments.iter().copied()));
+        let outlines = (0..rows.count()).map(|group| rows.of(group));
         let outlines = outlines.filter(|segments| segments.len() >= FEWEST_SEGMENTS);
         outlines.map(|segments| Outline { segments: segments.to_vec() }).collect()
     }

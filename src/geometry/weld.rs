@@ -1,7 +1,7 @@
 //! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
 
 use super::cells::CellMap;
-use super::groups::{Groups, by_number};
+use super::groups::{Groups, Rows, by_number};
 use super::lists::marked;
 use super::whole::floor;
 use glam::DVec3;
@@ -141,21 +141,8 @@ pub fn rim_edges(triangles: &[[u32; 3]], weld: &Weld) -> Vec<[u32; 2]> {
     edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect()
 }
 
-/// The neighbours of every welded vertex along edges.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Neighbours {
-    /// Where each vertex's neighbours start in `vertices`; one more than there are vertices.
-    pub starts: Vec<u32>,
-    /// The neighbours: ascending, without repeats and without the vertex itself.
-    pub vertices: Vec<u32>,
-}
-
-impl Neighbours {
-    /// The neighbours of one welded vertex.
-    pub fn of(&self, vertex: usize) -> &[u32] {
-        &self.vertices[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
-    }
-}
+/// The neighbours of every welded vertex along edges: ascending, without repeats and without the vertex itself.
+pub type Neighbours = Rows<u32>;
 
 /// Which welded vertices share an edge with which.
 pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
@@ -164,22 +151,15 @@ pub fn neighbours(triangles: &[[u32; 3]], weld: &Weld) -> Neighbours {
         let [a, b, c] = weld.triangle(corners);
         [(a, b), (b, c), (c, a), (b, a), (c, b), (a, c)]
     });
-    let (ends, mut all) = by_number(weld.count, both_ways.filter(|(one, other)| one != other));
-    let mut starts = Vec::with_capacity(weld.count + 1);
-    let mut vertices: Vec<u32> = Vec::with_capacity(all.len() / 2);
+    let mut all = by_number(weld.count, both_ways.filter(|(one, other)| one != other));
+    let mut around = Neighbours { starts: vec![0], things: Vec::with_capacity(all.things.len() / 2) };
     for vertex in 0..weld.count {
-        starts.push(vertices.len() as u32);
-        let row = &mut all[ends[vertex] as usize..ends[vertex + 1] as usize];
+        let row = all.of_mut(vertex);
         row.sort_unstable();
-        let first = vertices.len();
-        for &mut other in row {
-            if vertices[first..].last() != Some(&other) {
-                vertices.push(other);
-            }
-        }
+        around.things.extend(row.chunk_by(|one, other| one == other).map(|same| same[0]));
+        around.starts.push(around.things.len() as u32);
     }
-    starts.push(vertices.len() as u32);
-    Neighbours { starts, vertices }
+    around
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::arm_curve::{Arm, ArmCurve};
 use super::solid::Solid;
-use super::solid::branches::{Branch, Rim};
+use super::solid::branches::Rim;
 use crate::geometry::{distinct, median};
 use glam::{DVec2, DVec3};
 
@@ -36,9 +36,9 @@ const TOP_WITHIN: f64 = 0.35;
 /// The arms that a branch may be, each with whether it is a left one: from its tip, or without a thing in the hand.
 ///
 /// `depth` gives how far forward the trunk's middle is at a height.
-pub fn arms_of(branch: &Branch, axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
-    let limbs = distinct(WIDENS.into_iter().flat_map(|by| limbs(&branch.rims, by)));
-    limbs.into_iter().filter_map(|(start, end)| arm_of(&branch.rims[start..end], axis, depth)).collect()
+pub fn arms_of(branch: &[Rim], axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
+    let limbs = distinct(WIDENS.into_iter().flat_map(|by| limbs(branch, by)));
+    limbs.into_iter().filter_map(|(start, end)| arm_of(&branch[start..end], axis, depth)).collect()
 }
 
 /// Half-open ranges of sections between jumps in thickness.

@@ -157,25 +157,23 @@ impl LegLobes {
         let (first, last) = (solid.row(low + SOLE_AT), solid.row(CROTCH_RANGE.1.min(top)));
         let mut rows: Vec<(f64, Option<Lobes>)> = Vec::new();
         let (mut areas, mut outer) = (Vec::new(), Vec::new());
-        let are_two = |lobes: &Option<Lobes>| lobes.as_ref().is_some_and(Lobes::are_two);
         for row in first..=last {
             let slice = solid.slice(row, LEG_REACH, 1);
-            let mut lobes = slice.lobes();
+            let lobes = slice.lobes();
             let y = solid.middle(IVec3::new(0, row, 0)).y;
             outer.push((y, lobes));
-            if !are_two(&lobes) {
-                let below = rows.last().and_then(|row| row.1);
+            let below = rows.last().and_then(|row| row.1);
+            let inner = || {
                 let inner = solid.slice(row, LEG_REACH, 2).lobes().filter(Lobes::are_two);
-                let inner = inner.filter(|inner| below.is_none_or(|below| inner.go_on(&below)));
-                lobes = inner.or(lobes);
-            }
-            rows.push((y, lobes));
+                inner.filter(|inner| below.is_none_or(|below| inner.go_on(&below)))
+            };
+            rows.push((y, lobes.filter(Lobes::are_two).or_else(inner).or(lobes)));
             areas.push(slice.area());
         }
         let bridge = (BRIDGE / solid.cell) as usize;
+        let is_one = |&(_, lobes): &(f64, Option<Lobes>)| !lobes.is_some_and(|lobes| lobes.are_two());
         let end = |rows: &[(f64, Option<Lobes>)]| {
-            let are_one = |(_, lobes): &(f64, Option<Lobes>)| !are_two(lobes);
-            rows.windows(bridge.max(1)).position(|rows| rows.iter().all(are_one))
+            rows.windows(bridge.max(1)).position(|rows| rows.iter().all(is_one))
         };
         let height = |at: usize| Some(rows[at].0 - 0.5 * solid.cell).filter(|&y| y >= CROTCH_RANGE.0);
         let area = |at: usize| areas.get(at).copied().unwrap_or(0.0);
@@ -202,13 +200,13 @@ impl LegLobes {
 pub fn find_legs(view: &FrontView, lobes: &LegLobes, top: f64) -> (Legs, Option<Legs>) {
     let mut legs = seen_legs(view, top);
     let mut inside = None;
-    let goes_on = |legs: &Legs, crotch| legs.seen == LegGap::Inside && legs.crotch > crotch + SAME_CROTCH;
     if let Some(crotch) = lobes.crotch
         && (legs.seen == LegGap::Unseen || lobes.is_hem || (legs.crotch - crotch).abs() > SAME_CROTCH)
     {
         let seen = if lobes.is_hem { LegGap::Hem } else { LegGap::Open };
         let told = Legs::new(view, crotch, seen, legs.pairs.clone());
-        inside = if goes_on(&legs, crotch) { Some(legs) } else { told.inside(view, lobes) };
+        let goes_on = legs.seen == LegGap::Inside && legs.crotch > crotch + SAME_CROTCH;
+        inside = if goes_on { Some(legs) } else { told.inside(view, lobes) };
         legs = told;
     } else if legs.seen == LegGap::Unseen
         && let Some(inner) = legs.inside(view, lobes)
@@ -223,7 +221,7 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
     let mut pairs: Vec<Option<[Limb; 2]>> = Vec::new();
     let mut crotch = None;
     let mut missed = 0;
-    let (mut outside_rows, mut inside_rows) = (0usize, 0usize);
+    let mut inside_rows = 0;
     for row in view.grid.row(view.low)..=view.grid.row(CROTCH_RANGE.1.min(top)) {
         let apart = apart(view, row);
         let inner = if apart.is_none() { inside(view, row) } else { None };
@@ -239,12 +237,11 @@ fn seen_legs(view: &FrontView, top: f64) -> Legs {
             missed = 0;
             crotch = Some(view.grid.y(row) + 0.5 * view.cell());
             inside_rows += usize::from(inner.is_some());
-            outside_rows += usize::from(inner.is_none());
         }
     }
     let (crotch, seen) = match crotch.filter(|&y| y >= CROTCH_RANGE.0) {
         None => (CROTCH_BY_RATIO * (view.high - view.low), LegGap::Unseen),
-        Some(y) if inside_rows * 4 > outside_rows => (y, LegGap::Inside),
+        Some(y) if inside_rows * 5 > pairs.iter().flatten().count() => (y, LegGap::Inside),
         Some(y) => (y, LegGap::Open),
     };
     Legs::new(view, crotch, seen, pairs)
@@ -293,7 +290,7 @@ impl Legs {
         let (mut all, top) = (self.sections[side].clone(), self.crotch - HEM_ROWS as f64 * view.cell());
         all.retain(|section| section.y <= top);
         let seen: Vec<Section> = all.iter().copied().filter(|section| section.y >= foot).collect();
-        let Some(middle) = mean_section(&seen, foot, top).filter(|_| !seen.is_empty()) else {
+        let Some(middle) = mean_section(&seen, foot, top) else {
             return self.sections[side].clone();
         };
         let rows = view.grid.row(top) + 1..=view.grid.row(crotch);
@@ -363,10 +360,8 @@ fn touching(view: &FrontView, row: usize) -> Option<[Limb; 2]> {
     };
     let leg = most(true, left).min(most(false, right));
     let off = (TOUCH_OFF_AXIS / view.cell()) as usize;
-    let between = [true, false]
-        .into_iter()
-        .flat_map(|left| (0..=off).map(move |steps| thickness(left, steps)))
-        .fold(f64::INFINITY, f64::min);
+    let least = |left: bool| (0..=off).map(|steps| thickness(left, steps)).fold(f64::INFINITY, f64::min);
+    let between = least(true).min(least(false));
     (between < TOUCHING_THIN * leg).then_some([left, right].map(|run| (0, run.1.min(reach))))
 }
 

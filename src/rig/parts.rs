@@ -9,9 +9,9 @@ use super::WeightBone;
 use super::solid::sides::outward;
 use crate::character::{Humanoid, Role};
 use crate::geometry::laplacian::has_area;
-use crate::geometry::{Groups, Neighbours, ROUNDING, SEAM, foot, least_costs, neighbours, weld};
+use crate::geometry::{Neighbours, ROUNDING, SEAM, by_key, foot, least_costs, neighbours, weld};
 use glam::{DMat2, DVec2, DVec3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Normals are smoothed over about this width, in heights: stairs of a grid of 100 cells a height and the furrows between
 /// locks are no creases, the edge of hair on a back is one. Seen, head weight of hair below the chin (solids of Seed-san and
@@ -136,31 +136,24 @@ impl<'a> Skin<'a> {
         }
         let (of_skull, of_body) = (self.reached(&skull), self.reached(&body));
         let radius = radius * BESIDE_NECK;
-        let mut hanging: Vec<bool> = (0..count)
+        let hanging: Vec<bool> = (0..count)
             .map(|v| {
                 let p = self.points[v];
                 let beside = foot(p, low, high).0.distance(p) > radius;
                 beside && of_body[v].is_finite() && of_skull[v] + MARGIN < of_body[v]
             })
             .collect();
-        self.keep_low(&mut hanging);
-        hanging
+        self.low(&hanging)
     }
 
     /// Vertices that are limbs or belly for sure.
     fn sure_body(&self, radius: f64) -> Vec<usize> {
-        let mut of_limbs: BTreeMap<Role, Vec<usize>> = BTreeMap::new();
-        let mut body = Vec::new();
-        for (vertex, &(role, _)) in self.nearest.iter().enumerate() {
-            if is_end(role) {
-                of_limbs.entry(role).or_default().push(vertex);
-            } else if matches!(role, Role::Hips | Role::Spine | Role::Chest) && self.is_front(vertex, radius)
-            {
-                body.push(vertex);
-            }
-        }
-        body.extend(of_limbs.into_values().flat_map(|vertices| self.surest(vertices)));
-        body
+        let vertices = || self.nearest.iter().enumerate().map(|(vertex, &(role, _))| (role, vertex));
+        let is_trunk = |role: Role| matches!(role, Role::Hips | Role::Spine | Role::Chest);
+        let trunk = vertices().filter(|&(role, vertex)| is_trunk(role) && self.is_front(vertex, radius));
+        let limbs = by_key(vertices().filter(|&(role, _)| is_end(role)));
+        let limbs = limbs.into_values().flat_map(|vertices| self.surest(vertices));
+        trunk.map(|(_, vertex)| vertex).chain(limbs).collect()
     }
 
     /// True for the belly, and above it for the breastbone, as broad as the neck: locks hang beside it.
@@ -211,17 +204,15 @@ impl<'a> Skin<'a> {
         least_costs(self.points.len(), seeds.iter().map(|&seed| (seed as u32, 0.0)), beside)
     }
 
-    /// Keeps what hangs together and reaches below the shoulders.
-    fn keep_low(&self, hanging: &mut [bool]) {
-        let mut groups = Groups::new(hanging.len());
-        let hangs: Vec<usize> = (0..hanging.len()).filter(|&v| hanging[v]).collect();
-        for &v in &hangs {
-            let beside = self.near.of(v).iter().filter(|&&other| hanging[other as usize]);
-            beside.for_each(|&other| groups.join(v, other as usize));
-        }
-        let is_low = |v: usize| self.points[v].y <= self.shoulders - BELOW_SHOULDERS;
-        let low: BTreeSet<usize> = hangs.iter().filter(|&&v| is_low(v)).map(|&v| groups.least(v)).collect();
-        hangs.into_iter().for_each(|v| hanging[v] = low.contains(&groups.least(v)));
+    /// What of `hanging` hangs together and reaches below the shoulders.
+    fn low(&self, hanging: &[bool]) -> Vec<bool> {
+        let is_low = |&v: &usize| hanging[v] && self.points[v].y <= self.shoulders - BELOW_SHOULDERS;
+        let low = (0..hanging.len()).filter(is_low).map(|v| (v as u32, 0.0));
+        let beside = |at: u32| {
+            let near = self.near.of(at as usize).iter().filter(|&&other| hanging[other as usize]);
+            near.map(|&other| (other, 0.0))
+        };
+        least_costs(hanging.len(), low, beside).into_iter().map(f64::is_finite).collect()
     }
 }
 

@@ -12,7 +12,6 @@ use crate::character::{Character, MeshKind, Role};
 use crate::error::{ErrorKind, Result, Warning};
 use crate::progress::Progress;
 use glam::{DVec3, Vec3};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Left limb joints by which, with those of the right, it is judged whether a character stands.
@@ -73,31 +72,30 @@ impl Placed {
             return first.map(Self::doubted);
         }
         let up = character.axes.up.normalize_or(Vec3::Y);
+        let mut turned = character.clone();
+        let mut stand = |up: Vec3, cells: f64| {
+            turned.axes.up = up;
+            let placed = Self::standing(&turned, options, cells, &mut Progress::none()).ok()?;
+            let count = placed.seen_count();
+            (count >= seen + MORE).then_some((count, placed))
+        };
         let mut best: Option<(usize, Vec3)> = None;
-        let mut turned = Cow::Borrowed(character);
         let others = [Vec3::Z, Vec3::NEG_Z, Vec3::NEG_Y, Vec3::X, Vec3::NEG_X, Vec3::Y];
         for (index, other) in others.into_iter().enumerate() {
             progress.at(STANDING + (1.0 - STANDING) * index as f32 / others.len() as f32)?;
             if other.dot(up) > 0.99 {
                 continue;
             }
-            turned.to_mut().axes.up = other;
-            let Ok(placed) = Self::standing(&turned, options, FEW_CELLS, &mut Progress::none()) else {
-                continue;
-            };
-            let count = placed.seen_count();
-            if count >= seen + MORE && best.is_none_or(|(most, _)| count > most) {
+            if let Some((count, _)) = stand(other, FEW_CELLS)
+                && best.is_none_or(|(most, _)| count > most)
+            {
                 best = Some((count, other));
             }
         }
         // Looked at closely, limbs must show as well.
-        let best = best.and_then(|(_, other)| {
-            turned.to_mut().axes.up = other;
-            let placed = Self::standing(&turned, options, CELLS, &mut Progress::none()).ok()?;
-            (placed.seen_count() >= seen + MORE).then_some(placed)
-        });
+        let best = best.and_then(|(_, other)| stand(other, CELLS));
         progress.at(1.0)?;
-        let Some(mut best) = best else { return first.map(Self::doubted) };
+        let Some((_, mut best)) = best else { return first.map(Self::doubted) };
         let message = format!(
             "the character stands as people do with {} up, not {}: if that is wrong, say which way is up",
             axis_name(best.up),
@@ -147,17 +145,13 @@ impl Placed {
         let ways = find_forward(character);
         progress.at(0.2)?;
         let count = ways.len() as f32;
-        let mut best: Option<Self> = None;
-        for (index, (forward, warnings)) in ways.into_iter().enumerate() {
-            let part = |index: usize| 0.2 + 0.8 * index as f32 / count;
-            let mut progress = progress.part(part(index), part(index + 1));
-            let placed = Self::looking(character, forward, warnings, options, cells, &mut progress)?;
-            best = Some(match best {
-                Some(best) => best.or_turned(placed),
-                None => placed,
-            });
-        }
-        best.ok_or_else(MeshList::no_extent)
+        let part = |index: usize| 0.2 + 0.8 * index as f32 / count;
+        let placed = ways.into_iter().enumerate().map(|(index, (forward, warnings))| {
+            let progress = &mut progress.part(part(index), part(index + 1));
+            Self::looking(character, forward, warnings, options, cells, progress)
+        });
+        let placed: Vec<Self> = placed.collect::<Result<_>>()?;
+        placed.into_iter().reduce(Self::or_turned).ok_or_else(MeshList::no_extent)
     }
 
     /// The one of two ways to look in which more limbs are seen, with the joints of the other one as candidates.

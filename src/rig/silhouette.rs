@@ -1,6 +1,6 @@
 //! A grid of parallel rays and all that they meet: the body's silhouette, its depth, and what lies inside of it.
 
-use crate::geometry::by_number;
+use crate::geometry::{Rows, by_number};
 use crate::parallel;
 use glam::DVec3;
 
@@ -32,10 +32,8 @@ pub struct GridFrame {
 pub struct RayGrid {
     /// Where the grid stands.
     pub frame: GridFrame,
-    /// Where each cell's hits start; one more than there are cells.
-    starts: Vec<u32>,
-    /// Depths along `right` × `up`, ascending in each cell, and whether the ray leaves there.
-    hits: Vec<(f32, bool)>,
+    /// By cell, depths along `right` × `up`, ascending, and whether the ray leaves there.
+    hits: Rows<(f32, bool)>,
 }
 
 impl RayGrid {
@@ -136,32 +134,27 @@ impl RayGrid {
     fn sorted(frame: GridFrame, found: Vec<Vec<(u32, f32, bool)>>) -> Self {
         let cell_count = frame.columns * frame.rows;
         let found = found.iter().flatten().map(|&(cell, depth, leaves)| (cell, (depth, leaves)));
-        let (starts, mut hits) = by_number(cell_count, found);
+        let mut hits = by_number(cell_count, found);
         // A mesh may be wound the other way round: of rays that meet two things, most enter first.
-        let (mut as_wound, mut inside_out) = (0usize, 0usize);
+        let mut as_wound = 0;
         for cell in 0..cell_count {
-            let hits = &mut hits[starts[cell] as usize..starts[cell + 1] as usize];
+            let hits = hits.of_mut(cell);
             hits.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             if let [(_, first), (_, second)] = *hits
                 && first != second
             {
-                if second {
-                    as_wound += 1;
-                } else {
-                    inside_out += 1;
-                }
+                as_wound += if second { 1 } else { -1 };
             }
         }
-        if inside_out > as_wound {
-            hits.iter_mut().for_each(|hit| hit.1 = !hit.1);
+        if as_wound < 0 {
+            hits.things.iter_mut().for_each(|hit| hit.1 = !hit.1);
         }
-        Self { frame, starts, hits }
+        Self { frame, hits }
     }
 
     /// The depths at which the ray of a cell meets something, ascending, and whether it leaves there.
     pub fn hits(&self, column: usize, row: usize) -> &[(f32, bool)] {
-        let cell = row * self.frame.columns + column;
-        &self.hits[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.hits.of(row * self.frame.columns + column)
     }
 
     /// True where the ray of a cell meets something.
@@ -215,25 +208,15 @@ impl RayGrid {
         }
         let thickest = found.iter().copied().max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
         let reach = LIMB_GAP * (thickest.1 - thickest.0);
-        let mut all = thickest;
         found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        for one in found.iter().filter(|one| one.1 >= thickest.0) {
-            if one.0 <= all.1 + reach {
-                all.1 = all.1.max(one.1);
-            }
-        }
+        let ahead = found.iter().filter(|one| one.1 >= thickest.0);
+        let front = ahead
+            .fold(thickest.1, |front, one| if one.0 <= front + reach { front.max(one.1) } else { front });
         found.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
-        for one in found.iter().filter(|one| one.0 <= thickest.1) {
-            if one.1 >= all.0 - reach {
-                all.0 = all.0.min(one.0);
-            }
-        }
-        Some(all)
-    }
-
-    /// How far along `right` a column's rays run.
-    pub fn x(&self, column: usize) -> f64 {
-        self.frame.origin.dot(self.frame.right) + (column as f64 + 0.5) * self.frame.cell
+        let behind = found.iter().filter(|one| one.0 <= thickest.1);
+        let back =
+            behind.fold(thickest.0, |back, one| if one.1 >= back - reach { back.min(one.0) } else { back });
+        Some((back, front))
     }
 
     /// How far along `up` a row's rays run.

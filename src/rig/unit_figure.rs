@@ -60,9 +60,7 @@ impl UnitFigure {
         }
         let origin = ((low + high) / 2.0).with_y(low.y);
         let height = high.y - low.y;
-        for p in &mut positions {
-            *p = (*p - origin) / height;
-        }
+        positions.iter_mut().for_each(|p| *p = (*p - origin) / height);
         let kind_of = |(mesh, range): (&Mesh, &[usize])| {
             // A mesh of eyes may hold shoes too. Which of its vertices are which, weights say that are still to be found.
             let is_low = || positions[range[0]..range[1]].iter().any(|p| p.y < LOWEST_CHIN);

@@ -4,11 +4,11 @@
 
 use super::solid::geodesic::{Bone, Distances, Paths, place_bones};
 use super::solid::{Solid, Voxels};
-use super::wholeness::Wholeness;
+pub use super::wholeness::heat_would_be_poor;
 use super::{WeightBone, WeightSet};
 use crate::character::Weights;
 use crate::error::Result;
-use crate::geometry::{NONE, by_number};
+use crate::geometry::{NONE, Rows, by_number, double_area};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::room::{self, Of};
@@ -128,7 +128,7 @@ pub fn voxel_weights(
         weights
     };
     let weights = Weights::from_rows(parallel::collect(options.thread_count, points.len(), 1000, weigh));
-    let apart = slots.iter().filter(|&&slot| paths.is_apart[slot as usize]).count();
+    let apart = slots.iter().filter(|&&slot| paths.islands[slot as usize] != NONE).count();
     let unreached = (0..points.len()).filter(|&vertex| rows.of(vertex).is_empty()).count();
     let counts = [(VOLUME_APART, apart), (NEAREST_BONE, unreached)];
     let fallback = counts.into_iter().filter(|&(_, count)| count > 0).collect();
@@ -143,17 +143,6 @@ pub(super) fn nearest_bone(bones: &[Bone], p: DVec3) -> usize {
 }
 
 /// For each vertex the distances of the bones in reach, in voxels.
-struct Rows {
-    starts: Vec<u32>,
-    entries: Vec<(u32, f32)>,
-}
-
-impl Rows {
-    fn of(&self, vertex: usize) -> &[(u32, f32)] {
-        &self.entries[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
-    }
-}
-
 fn distance_rows(
     paths: &Paths,
     bones: &[Bone],
@@ -162,7 +151,7 @@ fn distance_rows(
     profile: &Profile,
     thread_count: usize,
     progress: &mut Progress,
-) -> Result<Rows> {
+) -> Result<Rows<(u32, f32)>> {
     let volume = paths.volume;
     let mut nearest = Distances::new(volume.cells.len());
     nearest.spread(paths, bones, 0..bones.len(), |_| f32::INFINITY);
@@ -211,8 +200,7 @@ fn distance_rows(
     let entries = (0u32..)
         .zip(&columns)
         .flat_map(|(bone, column)| column.iter().map(move |&(vertex, length)| (vertex, (bone, length))));
-    let (starts, entries) = by_number(points.len(), entries);
-    Ok(Rows { starts, entries })
+    Ok(by_number(points.len(), entries))
 }
 
 /// The distance of a bone from `p`: of the voxels around it those that see the bone give the straight distance from `p`
@@ -240,11 +228,10 @@ fn distance_at(volume: &Voxels, distances: &Distances, bone: &Bone, p: DVec3) ->
 
 /// For each bone how far away, in voxels, the surface is on which it is the nearest: the median over the area as seen from
 /// the bone, so that neither a wing nor a joint under the skin counts for more than the limb itself.
-fn radii(points: &[DVec3], triangles: &[[u32; 3]], rows: &Rows, bone_count: usize) -> Vec<f64> {
+fn radii(points: &[DVec3], triangles: &[[u32; 3]], rows: &Rows<(u32, f32)>, bone_count: usize) -> Vec<f64> {
     let mut areas = vec![0.0; points.len()];
     for triangle in triangles {
-        let [a, b, c] = triangle.map(|vertex| points[vertex as usize]);
-        let third = (b - a).cross(c - a).length() / 6.0;
+        let third = double_area(points, *triangle).length() / 6.0;
         for &vertex in triangle {
             areas[vertex as usize] += third;
         }
@@ -349,13 +336,4 @@ impl Profile {
         let total: f64 = row.iter().map(|entry| share(entry).1).sum();
         row.iter().map(share).map(move |(bone, weight)| (bone, weight / total))
     }
-}
-
-/// Why heat would be poor on this body: a sentence for a person; `None` where heat does well.
-pub fn heat_would_be_poor(
-    positions: &[DVec3],
-    triangles: &[[u32; 3]],
-    bones: &[WeightBone],
-) -> Option<String> {
-    Wholeness::of(positions, triangles, bones).trouble()
 }

@@ -10,7 +10,7 @@
 
 use super::turn::{Four, LANES, Turn, Turns, columns_of, cross, dot, four_at, root, transposed};
 use crate::geometry::weld::Weld;
-use crate::geometry::{bounds, by_number};
+use crate::geometry::{Rows, bounds, by_number};
 use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::ops::Range;
 
@@ -299,23 +299,18 @@ fn edges(points: &[Vec3], [a, b, c]: [u32; 3]) -> (DVec3, DVec3) {
 }
 
 /// The triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
-struct Around {
-    starts: Vec<u32>,
-    triangles: Vec<u32>,
-}
+struct Around(Rows<u32>);
 
 impl Around {
     fn of(triangles: &[[u32; 3]], weld: &Weld) -> Self {
         let corners = (0u32..).zip(triangles);
         let corners =
             corners.flat_map(|(index, &corners)| weld.triangle(corners).map(|corner| (corner, index)));
-        let (starts, triangles) = by_number(weld.count, corners);
-        Self { starts, triangles }
+        Self(by_number(weld.count, corners))
     }
 
     fn of_vertex(&self, welded: u32) -> &[u32] {
-        let welded = welded as usize;
-        &self.triangles[self.starts[welded] as usize..self.starts[welded + 1] as usize]
+        self.0.of(welded as usize)
     }
 
     /// For each of the same triangles the first one between the same three welded vertices.

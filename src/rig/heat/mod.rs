@@ -14,11 +14,13 @@ use super::transfer::{normalised, of_welded};
 use super::{WeightBone, WeightSet};
 use crate::error::Result;
 use crate::geometry::laplacian::{COLUMNS, Cholesky, Symbolic, cotangent_laplacian, has_area};
-use crate::geometry::{NONE, ROUNDING, SEAM, Weld, bounds, by_number, components, weld};
+use crate::geometry::{
+    ROUNDING, Rows, SEAM, Weld, bounds, by_key, by_number, components, marked, slots, triangles_where, weld,
+};
 use crate::parallel;
 use crate::progress::Progress;
 use glam::DVec3;
-use nearest::{Body, NearestBones, Segments};
+use nearest::{Body, Nearest, Segments, hold, nearest_bones, shares};
 use std::collections::BTreeMap;
 
 /// What lies further than this from the mesh's middle, in units of the figure, counts as this far, so that squares of
@@ -80,8 +82,9 @@ pub struct HeatSystem {
     weld: Weld,
     /// The joint of each bone.
     joints: Vec<u32>,
-    nearest: NearestBones,
-    /// The component of each welded vertex, or `NONE`.
+    /// The bones that are nearest to each welded vertex, with their shares.
+    nearest: Rows<(u32, f64)>,
+    /// The component of each welded vertex.
     components: Vec<u32>,
     /// How each component gets its weights.
     rules: Vec<Rule>,
@@ -107,6 +110,8 @@ enum Rule {
     Unseen,
     /// As one.
     Small,
+    /// A vertex in no triangle: by its nearest bones.
+    Loose,
 }
 
 impl HeatSystem {
@@ -144,83 +149,77 @@ impl HeatSystem {
         thread_count: usize,
         progress: &mut Progress,
     ) -> Result<Self> {
-        let is_there =
-            |corners: &&[u32; 3]| corners.iter().all(|&vertex| (vertex as usize) < positions.len());
-        let triangles = || triangles.iter().filter(is_there);
-        let frame = Frame::of(positions, triangles(), bones);
+        let triangles = triangles_where(triangles, |vertex| vertex < positions.len());
+        let frame = Frame::of(positions, &triangles, bones);
         let mut points: Vec<DVec3> = positions.iter().map(|&p| frame.place(p)).collect();
         let mut weld = weld(&points, SEAM);
         points = weld.first_vertices().iter().map(|&vertex| points[vertex as usize]).collect();
         arrange(&mut weld, &mut points);
-        let pieces = Components::of(&points, triangles().map(|&corners| weld.triangle(corners)));
+        let (components, triangles) =
+            pieces(&points, triangles.into_iter().map(|corners| weld.triangle(corners)));
         let segments = Segments::of(bones, &frame);
         let body = solid.map(|solid| Body { solid, frame });
         progress.at(0.2)?;
         let ((laplacian, symbolic, held), nearest) = parallel::both(
             thread_count,
             || {
-                let mut laplacian = cotangent_laplacian(&points, &pieces.triangles);
+                let mut laplacian = cotangent_laplacian(&points, &triangles.things);
                 let symbolic = Symbolic::new(points.len(), &laplacian.off_diagonal);
                 laplacian.off_diagonal = Vec::new();
                 (laplacian, symbolic, held())
             },
             || {
-                NearestBones::of(
-                    &points,
-                    &pieces,
-                    &segments,
-                    body,
-                    thread_count,
-                    &mut progress.part(0.2, 0.9),
-                )
+                let progress = &mut progress.part(0.2, 0.9);
+                nearest_bones(&points, (&components, &triangles), &segments, body, thread_count, progress)
             },
         );
-        let nearest = nearest?.held(&held, &weld);
+        let mut nearest = nearest?;
+        hold(&mut nearest, &held, &weld);
         let mut system = Self {
             thread_count,
             weld,
             joints: bones.iter().map(|bone| bone.joint).collect(),
-            exchange: laplacian.areas.iter().zip(&nearest.heat).map(|(area, heat)| area * heat).collect(),
-            nearest,
+            exchange: laplacian.areas.iter().zip(&nearest).map(|(area, near)| area * near.heat).collect(),
+            nearest: shares(&nearest),
             rules: Vec::new(),
-            components: pieces.components,
+            components,
             diagonal: laplacian.diagonal,
             symbolic,
         };
-        system.choose_rules(pieces.starts.len() - 1);
+        system.choose_rules(&triangles, &nearest);
         progress.at(1.0)?;
         Ok(system)
     }
 
     /// Tells how each component gets its weights, and takes the rest out of the system.
-    fn choose_rules(&mut self, component_count: usize) {
-        let vertices = || self.components.iter().enumerate().filter(|&(_, &component)| component != NONE);
-        self.rules = vec![Rule::Unseen; component_count];
-        for (vertex, &component) in vertices() {
-            if self.nearest.seen[vertex] {
-                self.rules[component as usize] = Rule::Heat;
-            }
-        }
-        let mut exchanged = vec![0.0; component_count];
-        let mut conducted = vec![0.0_f64; component_count];
-        for (vertex, &component) in vertices() {
+    fn choose_rules(&mut self, triangles: &Rows<[u32; 3]>, nearest: &[Nearest]) {
+        let count = triangles.count();
+        let seeing = nearest.iter().zip(&self.components).filter(|(near, _)| near.is_seen);
+        let sees = marked(count, seeing.map(|(_, &component)| component as usize));
+        let (mut exchanged, mut conducted) = (vec![0.0; count], vec![0.0_f64; count]);
+        for (vertex, &component) in self.components.iter().enumerate() {
             let component = component as usize;
-            if self.rules[component] == Rule::Heat && !self.nearest.seen[vertex] {
+            if sees[component] && !nearest[vertex].is_seen {
                 self.exchange[vertex] = 0.0;
             }
             exchanged[component] += self.exchange[vertex];
             conducted[component] = conducted[component].max(self.diagonal[vertex]);
         }
-        for component in 0..component_count {
-            if exchanged[component] < LEAST_EXCHANGE * conducted[component] {
-                self.rules[component] = Rule::Small;
+        let rule = |component: usize| {
+            if triangles.of(component).is_empty() {
+                Rule::Loose
+            } else if exchanged[component] < LEAST_EXCHANGE * conducted[component] {
+                Rule::Small
+            } else if sees[component] {
+                Rule::Heat
+            } else {
+                Rule::Unseen
             }
-        }
-        for (vertex, &component) in self.components.iter().enumerate() {
-            if component == NONE {
-                self.diagonal[vertex] = 1.0;
-            } else if self.rules[component as usize] == Rule::Small {
-                // Its rows are not asked for; this makes them definite for sure.
+        };
+        self.rules = (0..count).map(rule).collect();
+        for vertex in 0..self.diagonal.len() {
+            if !self.is_solved(vertex) {
+                // Its row is not asked for; this makes it definite for sure.
                 self.diagonal[vertex] = 2.0 * self.diagonal[vertex] + 1.0;
             }
         }
@@ -234,26 +233,26 @@ impl HeatSystem {
     /// `Cancelled`.
     pub fn weights(&self, heat: f64, progress: &mut Progress) -> Result<WeightSet> {
         let count = self.weld.count;
-        if self.nearest.shares.is_empty() {
+        if self.nearest.things.is_empty() {
             let row = vec![(self.joints.first().copied().unwrap_or(0), 1.0)];
             return Ok(of_welded(&self.weld, &vec![row; count], &vec![Some("no_bone"); count]));
         }
         // Also where it is not a number.
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
         let (blocks, is_raised) = self.solve(heat, &mut progress.part(0.0, 0.8))?;
-        let (starts, solved) = by_number(count, blocks.iter().flatten().copied());
+        let solved = by_number(count, blocks.iter().flatten().copied());
         drop(blocks);
         let means = self.means();
         let weigh = |vertex: usize| {
-            let solved = &solved[starts[vertex] as usize..starts[vertex + 1] as usize];
-            let nearest = self.nearest.shares_of(vertex);
+            let solved = solved.of(vertex);
+            let nearest = self.nearest.of(vertex);
             let component = self.components[vertex] as usize;
-            let (row, rule) = match self.rules.get(component) {
-                None => (nearest, Some("vertex_without_triangle")),
-                Some(Rule::Small) => (&*means[component], Some("component_too_small")),
-                Some(_) if solved.is_empty() => (nearest, Some("vertex_without_heat")),
-                Some(Rule::Unseen) => (solved, Some("component_without_visible_bone")),
-                Some(Rule::Heat) => (solved, is_raised.then_some("system_raised")),
+            let (row, rule) = match self.rules[component] {
+                Rule::Loose => (nearest, Some("vertex_without_triangle")),
+                Rule::Small => (&*means[component], Some("component_too_small")),
+                Rule::Unseen | Rule::Heat if solved.is_empty() => (nearest, Some("vertex_without_heat")),
+                Rule::Unseen => (solved, Some("component_without_visible_bone")),
+                Rule::Heat => (solved, is_raised.then_some("system_raised")),
             };
             let of_joints = row.iter().map(|&(bone, weight)| (self.joints[bone as usize], weight));
             (normalised(of_joints.collect()), rule)
@@ -266,46 +265,38 @@ impl HeatSystem {
 
     /// The solution by blocks of bones, and whether the diagonal was raised.
     fn solve(&self, heat: f64, progress: &mut Progress) -> Result<(Vec<Solution>, bool)> {
-        let Some(symbolic) = &self.symbolic else {
-            return Ok((Vec::new(), false));
-        };
         let factored = SHIFTS.iter().find_map(|&shift| {
             let diagonal: Vec<f64> = (self.diagonal.iter().zip(&self.exchange))
                 .map(|(&conducted, &exchanged)| (conducted + heat * exchanged) * (1.0 + shift))
                 .collect();
-            Some((Cholesky::with(symbolic, &diagonal)?, shift))
+            Some((Cholesky::with(self.symbolic.as_ref()?, &diagonal)?, shift))
         });
         let Some((cholesky, shift)) = factored else {
             return Ok((Vec::new(), false));
         };
         progress.at(0.4)?;
         // (vertex, share) by bones: A H P / c without its zeros.
-        let mut sources: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.joints.len()];
-        for (vertex, &exchange) in self.exchange.iter().enumerate() {
-            let is_solved = self.rule_of(vertex).is_some_and(|rule| rule != Rule::Small);
-            if exchange > 0.0 && is_solved {
-                for &(bone, share) in self.nearest.shares_of(vertex) {
-                    sources[bone as usize].push((vertex as u32, share));
-                }
-            }
-        }
-        let bones: Vec<usize> = (0..sources.len()).filter(|&bone| !sources[bone].is_empty()).collect();
-        let blocks: Vec<&[usize]> = bones.chunks(COLUMNS).collect();
         let size = self.weld.count;
+        let warmed = (0..size).filter(|&vertex| self.exchange[vertex] > 0.0 && self.is_solved(vertex));
+        let shares = warmed.flat_map(|vertex| {
+            self.nearest.of(vertex).iter().map(move |&(bone, share)| (bone, (vertex, share)))
+        });
+        let sources: Vec<(u32, Vec<(usize, f64)>)> = by_key(shares).into_iter().collect();
+        let blocks: Vec<_> = sources.chunks(COLUMNS).collect();
         let solved = |&mut (): &mut (), block: usize| {
-            let bones = blocks[block];
-            let mut columns = vec![0.0; bones.len() * size];
-            for (column, &bone) in columns.chunks_mut(size).zip(bones) {
-                for &(vertex, share) in &sources[bone] {
-                    column[vertex as usize] = heat * self.exchange[vertex as usize] * share;
+            let sources = blocks[block];
+            let mut columns = vec![0.0; sources.len() * size];
+            for (column, (_, source)) in columns.chunks_mut(size).zip(sources) {
+                for &(vertex, share) in source {
+                    column[vertex] = heat * self.exchange[vertex] * share;
                 }
             }
-            cholesky.solve(&mut columns, bones.len());
+            cholesky.solve(&mut columns, sources.len());
             let mut solution = Vec::new();
             for vertex in 0..size {
-                for (&bone, column) in bones.iter().zip(columns.chunks(size)) {
+                for (&(bone, _), column) in sources.iter().zip(columns.chunks(size)) {
                     if column[vertex] >= ROUNDING {
-                        solution.push((vertex as u32, (bone as u32, column[vertex])));
+                        solution.push((vertex as u32, (bone, column[vertex])));
                     }
                 }
             }
@@ -319,20 +310,19 @@ impl HeatSystem {
     /// The bones of components that have one temperature.
     fn means(&self) -> Vec<Vec<(u32, f64)>> {
         let mut means: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); self.rules.len()];
-        for vertex in 0..self.weld.count {
-            if self.rule_of(vertex) == Some(Rule::Small) {
-                let mean = &mut means[self.components[vertex] as usize];
-                for &(bone, share) in self.nearest.shares_of(vertex) {
-                    *mean.entry(bone).or_insert(0.0) += share;
+        for (vertex, &component) in self.components.iter().enumerate() {
+            if self.rules[component as usize] == Rule::Small {
+                for &(bone, share) in self.nearest.of(vertex) {
+                    *means[component as usize].entry(bone).or_insert(0.0) += share;
                 }
             }
         }
         means.into_iter().map(|mean| mean.into_iter().collect()).collect()
     }
 
-    /// How the vertex's component gets its weights; `None` where it has no component.
-    fn rule_of(&self, vertex: usize) -> Option<Rule> {
-        self.rules.get(self.components[vertex] as usize).copied()
+    /// True where a vertex gets its weights by the equation.
+    fn is_solved(&self, vertex: usize) -> bool {
+        matches!(self.rules[self.components[vertex] as usize], Rule::Heat | Rule::Unseen)
     }
 }
 
@@ -348,16 +338,13 @@ fn arrange(weld: &mut Weld, points: &mut Vec<DVec3>) {
         }
         bits
     };
-    let mut order: Vec<u64> = (0u64..)
-        .zip(&*points)
-        .map(|(vertex, p)| (spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2) << 32 | vertex)
-        .collect();
-    order.sort_unstable();
-    let mut numbers = vec![0; points.len()];
-    for (number, &vertex) in (0u32..).zip(&order) {
-        numbers[vertex as u32 as usize] = number;
-    }
-    *points = order.iter().map(|&vertex| points[vertex as u32 as usize]).collect();
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_by_cached_key(|&vertex| {
+        let p = points[vertex as usize];
+        spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
+    });
+    let numbers = slots(points.len(), &order);
+    *points = order.iter().map(|&vertex| points[vertex as usize]).collect();
     for welded in &mut weld.representative {
         *welded = numbers[*welded as usize];
     }
@@ -372,12 +359,8 @@ struct Frame {
 
 impl Frame {
     /// Of the triangles; where these have no extent of all vertices, or else of the bones.
-    fn of<'a>(
-        positions: &[DVec3],
-        triangles: impl Iterator<Item = &'a [u32; 3]>,
-        bones: &[WeightBone],
-    ) -> Self {
-        let corners = triangles.flatten().map(|&vertex| positions[vertex as usize]);
+    fn of(positions: &[DVec3], triangles: &[[u32; 3]], bones: &[WeightBone]) -> Self {
+        let corners = triangles.iter().flatten().map(|&vertex| positions[vertex as usize]);
         let ends = bones.iter().flat_map(|bone| bone.segments.iter().flatten().copied());
         Self::around(corners)
             .or_else(|| Self::around(positions.iter().copied()))
@@ -403,40 +386,14 @@ impl Frame {
     }
 }
 
-/// The triangles with an area, component by component.
-#[derive(Debug)]
-struct Components {
-    triangles: Vec<[u32; 3]>,
-    /// Where each component's triangles start; one more than there are components.
-    starts: Vec<u32>,
-    /// The component of each vertex, or `NONE`.
-    components: Vec<u32>,
-}
-
-impl Components {
-    fn of(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> Self {
-        let triangles: Vec<[u32; 3]> =
-            triangles.filter(|corners| has_area(corners.map(|vertex| points[vertex as usize]))).collect();
-        let mut components = components(&triangles, &Weld::alone(points.len()));
-        // Loose vertices are components as well there; here only triangles make one.
-        let mut numbers = vec![NONE; points.len()];
-        let mut count = 0;
-        for &[vertex, ..] in &triangles {
-            let number = &mut numbers[components[vertex as usize] as usize];
-            if *number == NONE {
-                *number = count;
-                count += 1;
-            }
-        }
-        for component in &mut components {
-            *component = numbers[*component as usize];
-        }
-        let numbered = triangles.iter().map(|&corners| (components[corners[0] as usize], corners));
-        let (starts, triangles) = by_number(count as usize, numbered);
-        Self { triangles, starts, components }
-    }
-
-    fn triangles_of(&self, component: usize) -> &[[u32; 3]] {
-        &self.triangles[self.starts[component] as usize..self.starts[component + 1] as usize]
-    }
+/// The component of each vertex, and by component the triangles with an area, which join them: a vertex in none of these is a
+/// component of its own.
+fn pieces(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> (Vec<u32>, Rows<[u32; 3]>) {
+    let triangles: Vec<[u32; 3]> =
+        triangles.filter(|corners| has_area(corners.map(|vertex| points[vertex as usize]))).collect();
+    let components = components(&triangles, &Weld::alone(points.len()));
+    let count = components.iter().max().map_or(0, |&last| last as usize + 1);
+    let triangles =
+        by_number(count, triangles.iter().map(|&corners| (components[corners[0] as usize], corners)));
+    (components, triangles)
 }

@@ -1,8 +1,8 @@
 //! The bones that are nearest to each vertex, and whether it sees them.
 
-use super::{Components, Frame, Held};
+use super::{Frame, Held};
 use crate::error::Result;
-use crate::geometry::{ROUNDING, Surface, Weld, foot};
+use crate::geometry::{ROUNDING, Rows, Surface, Weld, by_number, foot};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::rig::WeightBone;
@@ -34,7 +34,7 @@ const HELD_DISTANCE: f64 = 0.02;
 /// Seen: ±30 % moves vertices by under 0.0005 H.
 const RAY_MARGIN: f64 = 1e-3;
 
-/// Vertices that are looked at together. Time alone.
+/// Vertices that a thread looks at, at least. Time alone.
 const CHUNK: usize = 512;
 
 /// All segments of all bones, by coordinates, so that the distances to them are found side by side.
@@ -50,19 +50,16 @@ pub(super) struct Segments {
 impl Segments {
     pub(super) fn of(bones: &[WeightBone], frame: &Frame) -> Self {
         let mut all = Self::default();
-        for (bone, &[a, b]) in
-            (0u32..).zip(bones).flat_map(|(index, bone)| bone.segments.iter().map(move |ends| (index, ends)))
-        {
-            if !(a.is_finite() && b.is_finite()) {
-                continue;
-            }
-            let (a, b) = (frame.place(a), frame.place(b));
-            let inverse = (b - a).length_squared().recip();
-            all.bones.push(bone);
-            all.inverse.push(if inverse.is_finite() { inverse } else { 0.0 });
-            for axis in 0..3 {
-                all.starts[axis].push(a[axis]);
-                all.ways[axis].push(b[axis] - a[axis]);
+        for (index, bone) in (0u32..).zip(bones) {
+            for ends in bone.segments.iter().filter(|[a, b]| a.is_finite() && b.is_finite()) {
+                let [a, b] = ends.map(|p| frame.place(p));
+                let inverse = (b - a).length_squared().recip();
+                all.bones.push(index);
+                all.inverse.push(if inverse.is_finite() { inverse } else { 0.0 });
+                for axis in 0..3 {
+                    all.starts[axis].push(a[axis]);
+                    all.ways[axis].push(b[axis] - a[axis]);
+                }
             }
         }
         all
@@ -110,123 +107,89 @@ impl Body<'_> {
     }
 }
 
-/// The bones that are nearest to each vertex.
-#[derive(Debug, Default)]
-pub(super) struct NearestBones {
-    /// Where each vertex's bones start in `shares`; one more than there are vertices.
-    pub(super) starts: Vec<u32>,
-    /// Bones and their shares; those of a vertex sum to 1. Only those that are seen, where any is.
+/// The bones that are nearest to a vertex.
+#[derive(Debug)]
+pub(super) struct Nearest {
+    /// Bones and their shares, of sum 1. Only those that are seen, where any is.
     pub(super) shares: Vec<(u32, f64)>,
     /// k / d² of those.
-    pub(super) heat: Vec<f64>,
+    pub(super) heat: f64,
     /// Whether any is seen.
-    pub(super) seen: Vec<bool>,
+    pub(super) is_seen: bool,
 }
 
-impl NearestBones {
-    /// One ray a vertex and bone that is as near as the nearest.
-    pub(super) fn of(
-        points: &[DVec3],
-        pieces: &Components,
-        segments: &Segments,
-        body: Option<Body>,
-        thread_count: usize,
-        progress: &mut Progress,
-    ) -> Result<Self> {
-        progress.at(0.0)?;
-        let component_count = pieces.starts.len() - 1;
-        let normals = outward(points, &pieces.triangles);
-        let surfaces = parallel::collect(thread_count, component_count, 1, |component| {
-            Surface::for_many(points, pieces.triangles_of(component))
-        });
-        progress.at(0.3)?;
-        let chunks: Vec<&[DVec3]> = points.chunks(CHUNK).collect();
-        let found = progress.part(0.3, 1.0).collect_with(
-            thread_count,
-            chunks.len(),
-            1,
-            || (vec![0.0; segments.bones.len()], Vec::new()),
-            |(squared, near), chunk| {
-                let mut found = Self::default();
-                let vertices = chunks[chunk].iter().zip(&normals[chunk * CHUNK..]);
-                for ((&p, &normal), &component) in vertices.zip(&pieces.components[chunk * CHUNK..]) {
-                    segments.near(p, normal, squared, near);
-                    found.push(p, surfaces.get(component as usize), segments, body, near);
-                }
-                found
-            },
-        )?;
-        let mut all = Self { starts: vec![0], ..Self::default() };
-        for chunk in found {
-            let start = all.shares.len() as u32;
-            all.starts.extend(chunk.starts.iter().map(|end| start + end));
-            all.shares.extend(chunk.shares);
-            all.heat.extend(chunk.heat);
-            all.seen.extend(chunk.seen);
-        }
-        Ok(all)
-    }
+/// The bones that are nearest to each of `points`, whose `components` have `triangles`: one ray a vertex and bone that is as near
+/// as the nearest.
+pub(super) fn nearest_bones(
+    points: &[DVec3],
+    (components, triangles): (&[u32], &Rows<[u32; 3]>),
+    segments: &Segments,
+    body: Option<Body>,
+    thread_count: usize,
+    progress: &mut Progress,
+) -> Result<Vec<Nearest>> {
+    progress.at(0.0)?;
+    let normals = outward(points, &triangles.things);
+    let surfaces = parallel::collect(thread_count, triangles.count(), 1, |component| {
+        Surface::for_many(points, triangles.of(component))
+    });
+    progress.at(0.3)?;
+    progress.part(0.3, 1.0).collect_with(
+        thread_count,
+        points.len(),
+        CHUNK,
+        || (vec![0.0; segments.bones.len()], Vec::new()),
+        |(squared, near), vertex| {
+            let p = points[vertex];
+            segments.near(p, normals[vertex], squared, near);
+            Nearest::of(p, &surfaces[components[vertex] as usize], segments, body, near)
+        },
+    )
+}
 
-    /// Adds a vertex; `near` are the bones near to it. Here `starts` are ends.
-    fn push(
-        &mut self,
-        p: DVec3,
-        surface: Option<&Surface>,
-        segments: &Segments,
-        body: Option<Body>,
-        near: &mut Vec<NearBone>,
-    ) {
+/// The shares of those that are `nearest` to each vertex, in one list.
+pub(super) fn shares(nearest: &[Nearest]) -> Rows<(u32, f64)> {
+    by_number(
+        nearest.len(),
+        (0..).zip(nearest).flat_map(|(vertex, near)| near.shares.iter().map(move |&share| (vertex, share))),
+    )
+}
+
+/// Lets `held` bones of vertices stand in for the nearest ones, as if they were near and seen.
+pub(super) fn hold(nearest: &mut [Nearest], held: &[Held], weld: &Weld) {
+    let mut of_welded: Vec<&[(u32, f64)]> = vec![&[]; nearest.len()];
+    for (held, &welded) in held.iter().zip(&weld.representative) {
+        of_welded[welded as usize] = held;
+    }
+    for (nearest, held) in nearest.iter_mut().zip(of_welded).filter(|(_, held)| !held.is_empty()) {
+        *nearest = Nearest { shares: held.to_vec(), heat: HELD_DISTANCE.powi(-2), is_seen: true };
+    }
+}
+
+impl Nearest {
+    /// Those of `near` that a vertex at `p` sees past `surface` and `body`, or all of them.
+    fn of(p: DVec3, surface: &Surface, segments: &Segments, body: Option<Body>, near: &[NearBone]) -> Self {
         let least = near.iter().fold(f64::INFINITY, |least, bone| least.min(bone.distance));
         let mut last = None;
-        let is_seen = |bone: &NearBone| {
+        let sees = |bone: &&NearBone| {
             let way = segments.foot(bone.segment as usize, p) - p;
             // Bones that share a joint share the ray to it.
             match last {
                 Some((known, is_seen)) if known == way => is_seen,
                 _ => {
                     let is_hidden = body.is_some_and(|body| body.hides(p, way))
-                        || surface.is_some_and(|surface| {
-                            surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN)
-                        });
+                        || surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN);
                     last = Some((way, !is_hidden));
                     !is_hidden
                 }
             }
         };
-        let seen: Vec<bool> = near.iter().map(is_seen).collect();
-        let any_seen = seen.contains(&true);
-        if any_seen {
-            let mut seen = seen.into_iter();
-            near.retain(|_| seen.next() == Some(true));
-        }
-        let k: f64 = near.iter().map(|bone| bone.share).sum();
-        self.shares.extend(near.iter().map(|bone| (bone.bone, bone.share / k)));
-        self.starts.push(self.shares.len() as u32);
-        self.heat.push(if near.is_empty() { 0.0 } else { k / (least * least) });
-        self.seen.push(any_seen);
-    }
-
-    /// The same with `held` bones for the vertices that have any: as if these were near and seen.
-    pub(super) fn held(self, held: &[Held], weld: &Weld) -> Self {
-        if held.iter().all(Vec::is_empty) {
-            return self;
-        }
-        let mut of_welded: Vec<&[(u32, f64)]> = vec![&[]; self.heat.len()];
-        for (held, &welded) in held.iter().zip(&weld.representative) {
-            of_welded[welded as usize] = held;
-        }
-        let mut all = Self { starts: vec![0], ..Self::default() };
-        for (vertex, &held) in of_welded.iter().enumerate() {
-            all.shares.extend_from_slice(if held.is_empty() { self.shares_of(vertex) } else { held });
-            all.starts.push(all.shares.len() as u32);
-            all.heat.push(if held.is_empty() { self.heat[vertex] } else { HELD_DISTANCE.powi(-2) });
-            all.seen.push(!held.is_empty() || self.seen[vertex]);
-        }
-        all
-    }
-
-    pub(super) fn shares_of(&self, vertex: usize) -> &[(u32, f64)] {
-        &self.shares[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+        let seen: Vec<NearBone> = near.iter().filter(sees).copied().collect();
+        let is_seen = !seen.is_empty();
+        let bones = if is_seen { &*seen } else { near };
+        let k: f64 = bones.iter().map(|bone| bone.share).sum();
+        let shares = bones.iter().map(|bone| (bone.bone, bone.share / k)).collect();
+        Self { shares, heat: if bones.is_empty() { 0.0 } else { k / (least * least) }, is_seen }
     }
 }
 

@@ -80,8 +80,8 @@ pub struct Surroundings {
     pub(super) facts: Vec<Facts>,
     /// The plane in which the volumes mirror best, once it is found.
     pub(super) middle: OnceLock<f64>,
-    /// Which meshes go on where others end, once it is found.
-    pub(super) seams: OnceLock<Vec<Vec<usize>>>,
+    /// Which meshes go on where others end.
+    pub(super) seams: Vec<Vec<usize>>,
 }
 
 pub(super) struct Scene<'a> {
@@ -95,57 +95,55 @@ impl Surroundings {
         let mesh_of = |hit: &Hit| figure.mesh_of(hit.triangle);
         let (all, least, most) = SAMPLES;
         let count = (all / figure.mesh_count().max(1)).clamp(least, most);
-        let points: Vec<Vec<(DVec3, DVec3)>> =
-            (0..figure.mesh_count()).map(|mesh| points_on(figure, mesh, count)).collect();
-        // Points with both rays first: which side is out is known once a mesh's own hits are counted.
-        let all: Vec<(DVec3, DVec3)> = points.iter().flatten().copied().collect();
+        let meshes = 0..figure.mesh_count();
+        let on_mesh = |mesh: usize| {
+            points_on(figure, mesh, count).into_iter().map(move |(point, normal)| (mesh, point, normal))
+        };
+        let points: Vec<(usize, DVec3, DVec3)> = meshes.clone().flat_map(on_mesh).collect();
+        // Both rays first: which side is out is known once a mesh's own hits are counted.
         let shoot = |(): &mut (), index: usize| {
-            let (point, normal) = all[index];
-            let along = |direction: DVec3| {
+            let (_, point, normal) = points[index];
+            [normal, -normal].map(|direction| {
                 let mut hits = surface.all_hits(point, direction);
                 hits.retain(|hit| hit.t > SAME_SPOT);
                 hits
-            };
-            (point, along(normal), along(-normal))
+            })
         };
         progress.at(0.1)?;
         let part = &mut progress.part(0.1, 1.0);
-        let mut shot = part.collect_with(threads, all.len(), parallel::FEW_RAYS, || (), shoot)?.into_iter();
-        let shots: Vec<Vec<_>> =
-            points.iter().map(|of_mesh| shot.by_ref().take(of_mesh.len()).collect()).collect();
-        let turned: Vec<bool> = shots
-            .iter()
-            .enumerate()
-            .map(|(mesh, shots)| {
-                let own = |hits: &[Hit]| hits.iter().filter(|hit| mesh_of(hit) == mesh).count();
-                let out: usize = shots.iter().map(|(_, out, _)| own(out)).sum();
-                let inwards: usize = shots.iter().map(|(_, _, inwards)| own(inwards)).sum();
-                out > inwards
-            })
-            .collect();
-        let enters = |hit: &Hit| hit.front != turned[mesh_of(hit)];
-        let facts = shots.iter().enumerate().map(|(mesh, shots)| {
-            let samples = shots.iter().map(|(point, out, inwards)| {
-                let (out, inwards) = if turned[mesh] { (inwards, out) } else { (out, inwards) };
-                let first_other = out.iter().find(|hit| mesh_of(hit) != mesh);
-                let within = first_other.filter(|hit| !enters(hit)).map(mesh_of);
-                let far_side = inwards.iter().find(|hit| mesh_of(hit) == mesh && !enters(hit));
-                let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
-                let over = below.filter(|below| {
-                    let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
-                    if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
-                        below.t <= LAYER_REACH
-                    } else {
-                        thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
-                    }
-                });
-                Sample { point: *point, over: over.map(mesh_of), within, volume: far_side.is_some() }
-            });
+        let shots = part.collect_with(threads, points.len(), parallel::FEW_RAYS, || (), shoot)?;
+        let mut own = vec![[0; 2]; figure.mesh_count()];
+        for (&(mesh, ..), shots) in points.iter().zip(&shots) {
+            for (own, hits) in own[mesh].iter_mut().zip(shots) {
+                *own += hits.iter().filter(|hit| mesh_of(hit) == mesh).count();
+            }
+        }
+        let is_turned = |mesh: usize| own[mesh][0] > own[mesh][1];
+        let enters = |hit: &Hit| hit.front != is_turned(mesh_of(hit));
+        let without_samples = meshes.map(|mesh| {
             let corners = figure.triangles_of(mesh).iter().flatten();
             let (low, high) = bounds(corners.map(|&vertex| figure.positions[vertex as usize]));
-            Facts { samples: samples.collect(), area: mesh_area(figure, mesh), low, high }
+            Facts { samples: Vec::new(), area: mesh_area(figure, mesh), low, high }
         });
-        Ok(Self { facts: facts.collect(), ..Self::default() })
+        let mut facts: Vec<Facts> = without_samples.collect();
+        for (&(mesh, point, _), [out, inwards]) in points.iter().zip(&shots) {
+            let (out, inwards) = if is_turned(mesh) { (inwards, out) } else { (out, inwards) };
+            let first_other = out.iter().find(|hit| mesh_of(hit) != mesh);
+            let within = first_other.filter(|hit| !enters(hit)).map(mesh_of);
+            let far_side = inwards.iter().find(|hit| mesh_of(hit) == mesh && !enters(hit));
+            let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
+            let over = below.filter(|below| {
+                let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
+                if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
+                    below.t <= LAYER_REACH
+                } else {
+                    thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
+                }
+            });
+            let over = over.map(mesh_of);
+            facts[mesh].samples.push(Sample { point, over, within, volume: far_side.is_some() });
+        }
+        Ok(Self { facts, ..Self::default() })
     }
 }
 
@@ -160,13 +158,11 @@ impl Scene<'_> {
 
     /// The share of a mesh that lies within others larger than itself.
     pub(super) fn enclosed_share(&self, mesh: usize) -> f64 {
-        let facts = &self.known.facts[mesh];
+        let (all, facts) = (&self.known.facts, &self.known.facts[mesh]);
         // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
-        let lies_over =
-            |around: usize| self.known.facts[around].share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
-        let encloses: Vec<bool> = (0..self.known.facts.len())
-            .map(|around| self.known.facts[around].area > facts.area && !lies_over(around))
-            .collect();
+        let lies_over = |around: &Facts| around.share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
+        let encloses: Vec<bool> =
+            all.iter().map(|around| around.area > facts.area && !lies_over(around)).collect();
         facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
     }
 }
@@ -182,16 +178,14 @@ pub(super) fn mesh_area(figure: &UnitFigure, mesh: usize) -> f64 {
 
 /// Points evenly over the area of a mesh, with the unit normals of their triangles.
 pub(super) fn points_on(figure: &UnitFigure, mesh: usize, count: usize) -> Vec<(DVec3, DVec3)> {
-    let triangles = figure.triangles_of(mesh);
-    let normals: Vec<DVec3> = triangles.iter().map(|&corners| area_of(figure, corners)).collect();
-    let area: f64 = normals.iter().map(|normal| normal.length()).sum();
-    let step = area / count as f64;
+    let step = mesh_area(figure, mesh) / count as f64;
     if !(step.is_finite() && step > 0.0) {
         return Vec::new();
     }
     let mut points = Vec::with_capacity(count);
     let (mut passed, mut next) = (0.0, 0.5 * step);
-    for (corners, normal) in triangles.iter().zip(&normals) {
+    for &corners in figure.triangles_of(mesh) {
+        let normal = area_of(figure, corners);
         passed += normal.length();
         while next < passed && points.len() < count {
             let turn = points.len() as f64 + 0.5;

@@ -116,11 +116,10 @@ pub fn guess_kinds(
         let kinds = figure.kinds.iter().map(|kind| kind.unwrap_or_default()).collect();
         return Ok((kinds, Vec::new(), Surroundings::default()));
     }
-    let surroundings = Surroundings::of(figure, threads, &mut progress.part(0.0, 0.7))?;
-    let scene = Scene { figure, known: &surroundings };
-    surroundings.seams.get_or_init(|| scene.find_seams());
+    let mut surroundings = Surroundings::of(figure, threads, &mut progress.part(0.0, 0.7))?;
+    surroundings.seams = find_seams(figure);
     progress.at(0.85)?;
-    let guesses = scene.guess(None);
+    let guesses = Scene { figure, known: &surroundings }.guess(None);
     progress.at(1.0)?;
     let doubtful: Vec<usize> = (0..guesses.len()).filter(|&mesh| !guesses[mesh].sure).collect();
     let kinds: Vec<MeshKind> = guesses.iter().map(|guess| guess.kind).collect();
@@ -203,42 +202,35 @@ impl Scene<'_> {
         let open: Vec<usize> = (0..count).filter(|&mesh| guesses[mesh].is_none()).collect();
 
         // Volumes that lie over nothing and within nothing, the largest first.
-        let mut volumes: Vec<usize> = open
-            .iter()
-            .copied()
-            .filter(|&mesh| self.layer_share(mesh) < LAYER_SHARE)
-            .filter(|&mesh| self.enclosed_share(mesh) < ENCLOSED_SHARE)
-            .collect();
-        volumes
-            .sort_by(|&a, &b| self.known.facts[b].area.total_cmp(&self.known.facts[a].area).then(a.cmp(&b)));
-        let mut is_body: Vec<bool> = figure
-            .kinds
-            .iter()
-            .zip(&self.known.facts)
-            .map(|(kind, facts)| *kind == Some(MeshKind::Body) && !facts.samples.is_empty())
-            .collect();
-        let is_volume = |mesh: usize| volumes.contains(&mesh) || figure.kinds[mesh] == Some(MeshKind::Body);
+        let stands_alone = |&mesh: &usize| {
+            self.layer_share(mesh) < LAYER_SHARE && self.enclosed_share(mesh) < ENCLOSED_SHARE
+        };
+        let mut volumes: Vec<usize> = open.iter().copied().filter(stands_alone).collect();
+        let area = |mesh: usize| self.known.facts[mesh].area;
+        volumes.sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
+        let is_known = |mesh: usize| figure.kinds[mesh] == Some(MeshKind::Body);
+        let mut is_body: Vec<bool> =
+            (0..count).map(|mesh| is_known(mesh) && !self.known.facts[mesh].samples.is_empty()).collect();
+        let is_volume = |mesh: usize| volumes.contains(&mesh) || is_known(mesh);
         let middle = *self.known.middle.get_or_init(|| middle_plane(figure, &is_volume));
         if !is_body.contains(&true) {
             // Where everything lies over something, the one that reaches furthest carries the rest.
             let choice = if volumes.is_empty() { &open } else { &volumes };
             let reach = |mesh: usize| shown_count(&slices(figure, middle, &|other| other == mesh));
-            let reaches: Vec<(usize, usize)> = choice.iter().map(|&mesh| (reach(mesh), mesh)).collect();
-            let furthest = reaches.iter().max_by(|a, b| {
-                let area = |mesh: usize| self.known.facts[mesh].area;
-                a.0.cmp(&b.0).then(area(a.1).total_cmp(&area(b.1))).then(b.1.cmp(&a.1))
-            });
-            if let Some(&(_, furthest)) = furthest {
+            let furthest = choice
+                .iter()
+                .map(|&mesh| (reach(mesh), mesh))
+                .max_by(|a, b| a.0.cmp(&b.0).then(area(a.1).total_cmp(&area(b.1))).then(b.1.cmp(&a.1)));
+            if let Some((_, furthest)) = furthest {
                 is_body[furthest] = true;
             }
         }
         let first = is_body.clone();
-        let seams = self.known.seams.get_or_init(|| self.find_seams());
-        self.join_seams(&mut is_body, seams);
+        self.join_seams(&mut is_body);
         let chin = self.chin(&is_body, &volumes, middle);
         let chin = head.map_or(chin, |head| chin.min(head.y));
         let region = self.head_region(chin, head, &is_body, middle);
-        self.grow_body(&mut is_body, &volumes, &region, seams);
+        self.grow_body(&mut is_body, &volumes, &region);
         let unnamed = |mesh: usize| {
             let body = is_body[mesh].then(|| Guess { kind: MeshKind::Body, sure: first[mesh] });
             body.unwrap_or_else(|| self.guess_other(mesh, &is_body, &region))
@@ -246,51 +238,20 @@ impl Scene<'_> {
         (0..).zip(guesses).map(|(mesh, guess)| guess.unwrap_or_else(|| unnamed(mesh))).collect()
     }
 
-    /// For each mesh those whose border a good share of its own border is.
-    fn find_seams(&self) -> Vec<Vec<usize>> {
-        let figure = self.figure;
-        let welded = weld(&figure.positions, SEAM);
-        let border = |mesh| rim_edges(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
-        let borders: Vec<BTreeSet<u32>> = (0..figure.mesh_count()).map(border).collect();
-        let mut meshes_at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for (mesh, border) in borders.iter().enumerate() {
-            for &vertex in border {
-                meshes_at.entry(vertex).or_default().push(mesh);
-            }
-        }
-        borders
-            .iter()
-            .enumerate()
-            .map(|(mesh, border)| {
-                let mut shared: BTreeMap<usize, usize> = BTreeMap::new();
-                for other in border.iter().flat_map(|vertex| &meshes_at[vertex]).filter(|&&o| o != mesh) {
-                    *shared.entry(*other).or_default() += 1;
-                }
-                let most = SEAM_SHARE * border.len() as f64;
-                shared.retain(|_, count| *count as f64 >= most);
-                shared.into_keys().collect()
-            })
-            .collect()
-    }
-
     /// Adds to the body what goes on where it ends: one skin of several materials.
-    fn join_seams(&self, is_body: &mut [bool], seams: &[Vec<usize>]) {
-        let mut changed = true;
-        while changed {
-            changed = false;
-            for mesh in 0..is_body.len() {
-                let joins = seams[mesh].iter().any(|&other| is_body[other]);
-                if !is_body[mesh] && joins && self.figure.kinds[mesh].is_none() {
-                    is_body[mesh] = true;
-                    changed = true;
-                }
-            }
+    fn join_seams(&self, is_body: &mut [bool]) {
+        let joins = |mesh: usize, is_body: &[bool]| {
+            let is_open = !is_body[mesh] && self.figure.kinds[mesh].is_none();
+            is_open && self.known.seams[mesh].iter().any(|&other| is_body[other])
+        };
+        while let Some(mesh) = (0..is_body.len()).find(|&mesh| joins(mesh, is_body)) {
+            is_body[mesh] = true;
         }
     }
 
     /// Adds volumes to the body as long as it is not whole: what touches it, has its like on the other side, is no
     /// thing in front of or behind the trunk, and shows where the body does not; what adds most comes first.
-    fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion, seams: &[Vec<usize>]) {
+    fn grow_body(&self, is_body: &mut [bool], volumes: &[usize], region: &HeadRegion) {
         let figure = self.figure;
         let of_figure = |mesh: usize| {
             volumes.contains(&mesh)
@@ -298,16 +259,14 @@ impl Scene<'_> {
                 || (figure.kinds[mesh].is_none() && self.layer_share(mesh) >= LAYER_SHARE)
         };
         let middle = region.plane;
-        let mut candidates: Vec<(usize, Slices)> = volumes
-            .iter()
-            .copied()
-            .filter(|&mesh| {
-                let facts = &self.known.facts[mesh];
-                let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
-                facts.extent() >= LIMB && has_volume && !region.is_on_face(facts)
-            })
-            .map(|mesh| (mesh, slices(figure, middle, &|other| other == mesh)))
-            .collect();
+        let may_be_limb = |mesh: &usize| {
+            let facts = &self.known.facts[*mesh];
+            let has_volume = facts.share(|sample| sample.volume) >= VOLUME_SHARE;
+            facts.extent() >= LIMB && has_volume && !region.is_on_face(facts)
+        };
+        let with_slices = |mesh: usize| (mesh, slices(figure, middle, &|other| other == mesh));
+        let mut candidates: Vec<(usize, Slices)> =
+            volumes.iter().copied().filter(may_be_limb).map(with_slices).collect();
         while !reaches_over(figure, middle, &|mesh| is_body[mesh], &of_figure) {
             let body = Surface::new(&figure.positions, &figure.triangles_where(|mesh| is_body[mesh]));
             let shown = slices(figure, middle, &|mesh| is_body[mesh]);
@@ -317,16 +276,15 @@ impl Scene<'_> {
             candidates.retain(|(mesh, of)| !is_body[*mesh] && gain(of) >= LEAST_GAIN);
             candidates.sort_by_key(|(mesh, of)| (Reverse(gain(of)), *mesh));
             let touches = |mesh: usize| {
-                let vertices = figure.triangles_of(mesh).iter().flatten();
-                let mut near =
-                    vertices.filter_map(|&vertex| body.closest_point(figure.positions[vertex as usize]));
-                near.any(|near| near.distance <= PART_GAP)
+                let mut vertices = figure.triangles_of(mesh).iter().flatten();
+                let closest = |vertex: u32| body.closest_point(figure.positions[vertex as usize]);
+                vertices.any(|&vertex| closest(vertex).is_some_and(|near| near.distance <= PART_GAP))
             };
             let Some(&(mesh, _)) = candidates.iter().find(|(mesh, _)| touches(*mesh)) else {
                 return;
             };
             is_body[mesh] = true;
-            self.join_seams(is_body, seams);
+            self.join_seams(is_body);
         }
     }
 
@@ -344,18 +302,16 @@ impl Scene<'_> {
             let width = corners.into_iter().map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
             widths[low..=high].iter_mut().for_each(|widest| *widest = widest.max(width));
         }
-        let top_down: Vec<(usize, f64)> =
-            (0..widths.len()).rev().map(|slice| (slice, widths[slice])).collect();
-        let mut widest = (0usize, 0.0f64);
-        for (place, &(_, width)) in top_down.iter().enumerate() {
-            if place >= LEAST_HEAD_SLICES && width > SHOULDERS_WIDEN * widest.1 {
+        let mut widest = (count - 1, 0.0);
+        for (slice, &width) in widths.iter().enumerate().rev() {
+            if slice + LEAST_HEAD_SLICES < count && width > SHOULDERS_WIDEN * widest.1 {
                 // Between the head's widest slice and here.
-                let neck = top_down[widest.0..place].iter().filter(|(_, width)| *width > 0.0);
-                let neck = neck.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-                return neck.map_or(CHIN, |&(slice, _)| (slice as f64 + 0.5) / widths.len() as f64);
+                let neck = (slice + 1..=widest.0).filter(|&slice| widths[slice] > 0.0);
+                let neck = neck.rev().min_by(|&a, &b| widths[a].total_cmp(&widths[b]));
+                return neck.map_or(CHIN, |slice| (slice as f64 + 0.5) / count as f64);
             }
             if width > widest.1 {
-                widest = (place, width);
+                widest = (slice, width);
             }
         }
         CHIN
@@ -380,14 +336,11 @@ impl Scene<'_> {
         let layer = self.layer_share(mesh);
         let above = facts.share(|sample| sample.point.y > region.chin);
         let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
-        let inside = self.enclosed_share(mesh) >= ENCLOSED_SHARE;
+        let enclosed = self.enclosed_share(mesh);
         let at_head = facts.middle().y > region.chin - TEETH_BELOW * region.length;
-        if region.is_on_face(facts) || (inside && at_head && facts.extent() <= MOST_FACE_PART * region.length)
-        {
-            return Guess {
-                kind: MeshKind::FacePart,
-                sure: self.enclosed_share(mesh) >= ENCLOSED_SHARE - DOUBT,
-            };
+        let is_inside = enclosed >= ENCLOSED_SHARE && at_head;
+        if region.is_on_face(facts) || (is_inside && facts.extent() <= MOST_FACE_PART * region.length) {
+            return Guess { kind: MeshKind::FacePart, sure: enclosed >= ENCLOSED_SHARE - DOUBT };
         }
         // A head of its own: round the head's axis, with nothing below.
         let on_axis = facts.low.x < region.plane
@@ -404,10 +357,8 @@ impl Scene<'_> {
             return Guess { kind: MeshKind::Body, sure: false };
         }
         if above >= HAIR_SHARE && facts.high.y > region.chin + HALF_A_HEAD * region.length {
-            return Guess {
-                kind: MeshKind::Hair,
-                sure: layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE),
-            };
+            let sure = layer >= LAYER_SHARE && !doubtful(above, HAIR_SHARE);
+            return Guess { kind: MeshKind::Hair, sure };
         }
         if layer >= LAYER_SHARE {
             return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, LAYER_SHARE) };
@@ -416,11 +367,9 @@ impl Scene<'_> {
         let around =
             |other: usize| other != mesh && (is_body[other] || self.known.facts[other].area > facts.area);
         let rest = Surface::new(&self.figure.positions, &self.figure.triangles_where(around));
-        let distances: Vec<(f64, f64)> = facts
-            .samples
-            .iter()
-            .filter_map(|sample| Some((rest.closest_point(sample.point)?.distance, sample.point.y)))
-            .collect();
+        let samples = facts.samples.iter().map(|sample| sample.point);
+        let distances: Vec<(f64, f64)> =
+            samples.filter_map(|p| Some((rest.closest_point(p)?.distance, p.y))).collect();
         let furthest = distances.iter().map(|&(distance, _)| distance).fold(0.0, f64::max);
         let nearest = distances.iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let from_head = nearest.is_some_and(|&(_, height)| height > region.chin);
@@ -434,6 +383,19 @@ impl Scene<'_> {
         };
         Guess { kind, sure: false }
     }
+}
+
+/// For each mesh those whose border a good share of its own border is.
+fn find_seams(figure: &UnitFigure) -> Vec<Vec<usize>> {
+    let welded = weld(&figure.positions, SEAM);
+    let meshes = 0..figure.mesh_count();
+    let border = |mesh| rim_edges(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
+    let borders: Vec<BTreeSet<u32>> = meshes.clone().map(border).collect();
+    let goes_on = |mesh: usize, other: usize| {
+        let shared = borders[mesh].intersection(&borders[other]).count();
+        mesh != other && shared > 0 && shared as f64 >= SEAM_SHARE * borders[mesh].len() as f64
+    };
+    meshes.clone().map(|mesh| meshes.clone().filter(|&other| goes_on(mesh, other)).collect()).collect()
 }
 
 /// Where the head is.

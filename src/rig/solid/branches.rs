@@ -5,10 +5,9 @@
 //! the two ends: the merge tree of the distance (Carr, Snoeyink and Axen, Computing contour trees in all dimensions, 2003).
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
-use super::voxels::{Queue, Voxels};
-use crate::geometry::{NONE, merge_tree};
+use super::voxels::Voxels;
+use crate::geometry::{NONE, by_key, least_costs, merge_tree};
 use glam::DVec3;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Steps between neighbours of a cell that share a face, an edge, a corner, in thirds of a cell: no way is off by more than
@@ -32,12 +31,8 @@ pub struct Rim {
     pub radius: f64,
 }
 
-/// Something that sticks out.
-#[derive(Clone, Debug)]
-pub struct Branch {
-    /// Its sections from the tip inwards, down to where it meets another branch.
-    pub rims: Vec<Rim>,
-}
+/// Something that sticks out: its sections from the tip inwards, down to where it meets another branch.
+pub type Branch = Vec<Rim>;
 
 /// The branches of `solid` around a core: the filled cells next to the plane at `axis` in a range of heights. Longest
 /// first; empty where no cell is there, or where the solid is no figure's.
@@ -48,35 +43,22 @@ pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> 
     let far = distances(voxels, axis, heights);
     let pieces = merge(voxels, &far);
     let mut found: Vec<Branch> = pieces.iter().filter_map(|cells| measure(voxels, &far, cells)).collect();
-    found.sort_by_key(|branch| std::cmp::Reverse(branch.rims.len()));
+    found.sort_by_key(|branch| std::cmp::Reverse(branch.len()));
     found
 }
 
 /// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
 fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
     let solid = &voxels.solid;
-    let mut far = vec![NONE; voxels.cells.len()];
-    let mut queue = Queue::default();
-    for slot in 0..far.len() as u32 {
-        let at = solid.middle(voxels.place(slot));
-        if (at.x - axis).abs() < CORE * solid.cell && heights.contains(&at.y) {
-            far[slot as usize] = 0;
-            queue.push(0, slot);
-        }
-    }
-    while let Some((at, slot)) = queue.pop() {
-        if far[slot as usize] as usize != at {
-            continue;
-        }
-        for (other, sides) in voxels.beside(slot) {
-            let next = at as u32 + STEPS[sides - 1];
-            if next < far[other as usize] {
-                far[other as usize] = next;
-                queue.push(next as usize, other);
-            }
-        }
-    }
-    far
+    let is_core = |slot: &u32| {
+        let at = solid.middle(voxels.place(*slot));
+        (at.x - axis).abs() < CORE * solid.cell && heights.contains(&at.y)
+    };
+    let count = voxels.cells.len();
+    let core = (0..count as u32).filter(is_core).map(|slot| (slot, 0.0));
+    let beside = |slot: u32| voxels.beside(slot).map(|(other, sides)| (other, STEPS[sides - 1].into()));
+    // Whole numbers, and what is infinite becomes `NONE`.
+    least_costs(count, core, beside).into_iter().map(|cost| cost as u32).collect()
 }
 
 /// The pieces of the merge tree: of each its cells, from the tip inwards.
@@ -86,11 +68,7 @@ fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Vec<u32>> {
     order.sort_by_key(|&slot| std::cmp::Reverse(far[slot as usize]));
     let beside = |slot: u32| voxels.beside(slot).map(|(other, _)| other);
     let tips = merge_tree(far.len(), &order, beside, |_, _, _| ());
-    let mut pieces: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-    for (&slot, tip) in order.iter().zip(tips) {
-        pieces.entry(tip).or_default().push(slot);
-    }
-    pieces.into_values().collect()
+    by_key(tips.into_iter().zip(order)).into_values().collect()
 }
 
 /// Cuts a piece into sections; `None` where it is too short.
@@ -113,5 +91,5 @@ fn measure(voxels: &Voxels, far: &[u32], piece: &[u32]) -> Option<Branch> {
         let radius = outer.iter().sum::<f64>() / outer.len().max(1) as f64;
         Rim { middle, radius }
     });
-    Some(Branch { rims: rims.collect() })
+    Some(rims.collect())
 }

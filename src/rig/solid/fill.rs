@@ -14,7 +14,7 @@
 
 use super::sides::sides;
 use super::{MARGIN, Solid};
-use crate::geometry::{bounds, weld};
+use crate::geometry::{bounds, triangles_where, weld};
 use glam::{DVec3, IVec3};
 use std::collections::VecDeque;
 
@@ -28,10 +28,9 @@ const MOST_LAYERS: usize = 3;
 
 /// The box of the triangles, of the positions where there are none, without what is no number; empty where there is none.
 pub(super) fn extent(positions: &[DVec3], triangles: &[[u32; 3]]) -> (DVec3, DVec3) {
-    let finite = |triangle: &&[u32; 3]| triangle.iter().all(|&v| positions[v as usize].is_finite());
     // Loose points say nothing about how large a figure is, unless there is nothing else.
-    let corners = triangles.iter().filter(finite).flatten();
-    let of_triangles = bounds(corners.map(|&vertex| positions[vertex as usize]));
+    let finite = triangles_where(triangles, |vertex| positions[vertex].is_finite());
+    let of_triangles = bounds(finite.iter().flatten().map(|&vertex| positions[vertex as usize]));
     let of_points = || bounds(positions.iter().copied().filter(|p| p.is_finite()));
     let extent = if of_triangles.0.is_finite() { of_triangles } else { of_points() };
     if extent.0.is_finite() { extent } else { (DVec3::ZERO, DVec3::ZERO) }
@@ -75,27 +74,19 @@ impl Solid {
 
     /// The cells that cannot be reached from the grid's end through faces of cells that are no walls.
     fn unreached(&self, walls: &[bool]) -> Vec<bool> {
-        let last = self.size - 1;
-        let mut unreached: Vec<bool> = Vec::with_capacity(walls.len());
-        for z in 0..=last.z {
-            for y in 0..=last.y {
-                let is_end = z == 0 || y == 0 || z == last.z || y == last.y;
-                unreached.extend((0..=last.x).map(|x| !(is_end || x == 0 || x == last.x)));
-            }
-        }
-        // The first that came goes first: so few wait.
-        let mut open: VecDeque<u32> =
-            (0..walls.len() as u32).filter(|&cell| !unreached[cell as usize]).collect();
+        let mut unreached = vec![true; walls.len()];
+        unreached[0] = false;
+        // No wall is near the grid's end, so all of it hangs together. The first that came goes first: so few wait.
+        let mut open = VecDeque::from([0usize]);
         let steps = [IVec3::X, IVec3::Y, IVec3::Z].map(|step| self.stride(step));
         while let Some(cell) = open.pop_front() {
-            let cell = cell as usize;
-            for step in steps {
-                // What lies beyond the grid's end was reached, so to speak.
-                for next in [cell.wrapping_add_signed(step), cell.wrapping_add_signed(-step)] {
-                    if unreached.get(next) == Some(&true) && !walls[next] {
-                        unreached[next] = false;
-                        open.push_back(next as u32);
-                    }
+            // Beyond the end of a line in memory another one begins, at the grid's end as well.
+            for next in
+                steps.into_iter().flat_map(|step| [step, -step]).map(|by| cell.wrapping_add_signed(by))
+            {
+                if unreached.get(next) == Some(&true) && !walls[next] {
+                    unreached[next] = false;
+                    open.push_back(next);
                 }
             }
         }

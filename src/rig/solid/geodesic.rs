@@ -6,9 +6,9 @@
 
 use super::voxels::{Queue, Voxels, neighbourhood};
 use crate::error::Result;
-use crate::geometry::{Groups, NONE, ROUNDING, by_number, distinct, foot};
+use crate::geometry::{Groups, NONE, ROUNDING, Rows, by_number, distinct, foot, marked};
 use crate::room::{self, Of};
-use glam::DVec3;
+use glam::{DVec3, IVec3};
 
 /// Buckets a voxel: a voxel is always settled in a later bucket than the one on its way to the bone. Seen: ±30 % moves
 /// no vertex.
@@ -54,26 +54,21 @@ impl Bone {
         let longest = |one: &&[DVec3; 2], other: &&[DVec3; 2]| {
             one[0].distance(one[1]).total_cmp(&other[0].distance(other[1]))
         };
-        let Some(&[a, b]) = self.segments.iter().max_by(longest) else {
+        let longest = self.segments.iter().max_by(longest);
+        let Some(&[a, b]) = longest.filter(|[a, b]| a.distance(*b) > ROUNDING) else {
             return 0.0;
         };
-        if a.distance(b) <= ROUNDING {
-            return 0.0;
-        }
-        let mut reaches = Vec::new();
-        for offset in neighbourhood() {
-            let direction = offset.as_dvec3().reject_from_normalized((b - a).normalize()).normalize_or_zero();
-            if direction == DVec3::ZERO {
-                continue;
-            }
-            for t in [0.25, 0.5, 0.75] {
-                let from = a.lerp(b, t);
-                let steps =
-                    (0..).take_while(|&step| is_in(volume, from + direction * f64::from(step) / SAMPLES));
-                // A voxel is in the volume where its corner is touched: a voxel less is enclosed for certain.
-                reaches.push((steps.count() as f64 / SAMPLES - 1.0).max(0.0));
-            }
-        }
+        let along = (b - a).normalize();
+        let aside = |offset: IVec3| offset.as_dvec3().reject_from_normalized(along).normalize_or_zero();
+        let reach = |from: DVec3, way: DVec3| {
+            let is_in = |p: DVec3| volume.solid.is_filled(p.round().as_ivec3());
+            let steps = (0..).take_while(|&step| is_in(from + way * f64::from(step) / SAMPLES));
+            // A voxel is in the volume where its corner is touched: a voxel less is enclosed for certain.
+            (steps.count() as f64 / SAMPLES - 1.0).max(0.0)
+        };
+        let ways = neighbourhood().map(aside).filter(|&way| way != DVec3::ZERO);
+        let mut reaches: Vec<f64> =
+            ways.flat_map(|way| [0.25, 0.5, 0.75].map(|t| reach(a.lerp(b, t), way))).collect();
         reaches.sort_by(f64::total_cmp);
         reaches[reaches.len() / 2]
     }
@@ -91,22 +86,18 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
     let in_grid = |p: DVec3| {
         if p.is_finite() { solid.to_cells(p).clamp(middle - reach, middle + reach) } else { middle }
     };
-    let mut all: Vec<Vec<[DVec3; 2]>> = bones
-        .iter()
-        .map(|segments| segments.iter().map(|&[a, b]| [in_grid(a), in_grid(b)]).collect())
-        .collect();
+    let mut all: Vec<Vec<[DVec3; 2]>> =
+        bones.iter().map(|segments| segments.iter().map(|ends| ends.map(in_grid)).collect()).collect();
     let lines: Vec<[DVec3; 2]> = all.iter().flatten().copied().collect();
-    for segment in all.iter_mut().flatten() {
-        let [joint, end] = *segment;
-        if joint.distance(end) > ROUNDING {
-            continue;
-        }
+    let points = all.iter_mut().flatten().filter(|[joint, end]| joint.distance(*end) <= ROUNDING);
+    for segment in points {
+        let joint = segment[0];
         let arriving = lines
             .iter()
             .filter(|[from, to]| to.distance(joint) <= ROUNDING && from.distance(joint) > ROUNDING);
         let direction: DVec3 = arriving.map(|&[from, to]| (to - from).normalize_or_zero()).sum();
         let step = direction.normalize_or_zero() / SAMPLES;
-        while step != DVec3::ZERO && is_in(volume, segment[1] + step) {
+        while step != DVec3::ZERO && solid.is_filled((segment[1] + step).round().as_ivec3()) {
             segment[1] += step;
         }
     }
@@ -119,10 +110,6 @@ pub fn place_bones(volume: &Voxels, bones: &[Vec<[DVec3; 2]>]) -> Vec<Bone> {
         bone
     });
     placed.collect()
-}
-
-fn is_in(volume: &Voxels, p: DVec3) -> bool {
-    volume.slot(p.round().as_ivec3()) != NONE
 }
 
 /// Points along the segments, the part of them that lies in the grid.
@@ -154,12 +141,10 @@ type Link = (u32, f32);
 pub struct Paths<'a> {
     /// The voxels.
     pub volume: &'a Voxels,
-    /// For each voxel, whether it lies in a part of the volume that no bone starts in.
-    pub is_apart: Vec<bool>,
+    /// For each voxel the first one of the island that it lies in, a part of the volume that no bone starts in; or `NONE`.
+    pub islands: Vec<u32>,
     /// By the voxel that they start from, ascending by the other one.
-    links: Vec<Link>,
-    /// Where each voxel's links start; one more than there are voxels.
-    link_starts: Vec<u32>,
+    links: Rows<Link>,
 }
 
 impl<'a> Paths<'a> {
@@ -170,110 +155,85 @@ impl<'a> Paths<'a> {
     /// `OutOfMemory`.
     pub fn new(volume: &'a Voxels, bones: &[Bone]) -> Result<Self> {
         let count = volume.cells.len();
-        let is_apart = vec![true; count];
-        let mut paths = Self { volume, is_apart, links: Vec::new(), link_starts: Vec::new() };
-        let mut open: Vec<u32> = bones.iter().flat_map(|bone| bone.starts.iter().copied()).collect();
-        open.iter().for_each(|&slot| paths.is_apart[slot as usize] = false);
-        while let Some(slot) = open.pop() {
-            for (next, _) in volume.beside(slot) {
-                if std::mem::replace(&mut paths.is_apart[next as usize], false) {
-                    open.push(next);
-                }
-            }
+        let mut groups = Groups::new(count);
+        for slot in 0..count {
+            volume.beside(slot as u32).for_each(|(next, _)| groups.join(slot, next as usize));
         }
-        let mut links = paths.tie_islands()?;
+        let starts = bones.iter().flat_map(|bone| &bone.starts);
+        let has_bone = marked(count, starts.map(|&slot| groups.least(slot as usize)));
+        let island = |slot: usize| match groups.least(slot) {
+            first if has_bone[first] => NONE,
+            first => first as u32,
+        };
+        let islands: Vec<u32> = (0..count).map(island).collect();
+        let mut links = tie(volume, &islands)?;
         links.sort_by_key(|&(_, (to, _))| to);
-        (paths.link_starts, paths.links) = by_number(count, links.into_iter());
-        Ok(paths)
+        Ok(Self { volume, islands, links: by_number(count, links.into_iter()) })
     }
+}
 
-    fn links_of(&self, slot: u32) -> &[Link] {
-        let [start, end] = [slot as usize, slot as usize + 1].map(|at| self.link_starts[at] as usize);
-        &self.links[start..end]
+/// Links to `islands` by where they start: a wave through the air, from all voxels that are on none, which remembers where it
+/// came from.
+fn tie(volume: &Voxels, islands: &[u32]) -> Result<Vec<(u32, Link)>> {
+    let mut untouched = (0u32..).zip(islands).filter(|&(slot, &island)| slot == island).count();
+    let mut links: Vec<(u32, Link)> = Vec::new();
+    if untouched == 0 {
+        return Ok(links);
     }
-
-    /// For each voxel the first one of its island, or `NONE` where it is not apart.
-    fn islands(&self) -> Vec<u32> {
-        let mut groups = Groups::new(self.is_apart.len());
-        let apart = |slot: &u32| self.is_apart[*slot as usize];
-        for slot in (0..self.is_apart.len() as u32).filter(apart) {
-            self.volume.beside(slot).for_each(|(next, _)| groups.join(slot as usize, next as usize));
-        }
-        let mut first = |slot: u32| if apart(&slot) { groups.least(slot as usize) as u32 } else { NONE };
-        (0..self.is_apart.len() as u32).map(&mut first).collect()
+    room::ask(Of::Cell, 2 * volume.solid.count())?;
+    let mut origins = vec![NONE; volume.slots.len()];
+    let mut is_settled = vec![false; volume.slots.len()];
+    let mut queue = Queue::default();
+    for slot in (0..islands.len()).filter(|&slot| islands[slot] == NONE) {
+        origins[volume.cells[slot] as usize] = slot as u32;
+        queue.push(0, volume.cells[slot]);
     }
-
-    /// Links by where they start: a wave through the air, from all voxels that are not apart, which remembers where it came
-    /// from.
-    fn tie_islands(&self) -> Result<Vec<(u32, Link)>> {
-        let islands = self.islands();
-        let mut untouched = (0u32..).zip(&islands).filter(|&(slot, &island)| slot == island).count();
-        let mut links: Vec<(u32, Link)> = Vec::new();
-        if untouched == 0 {
-            return Ok(links);
+    let length = |cell: u32, origin: u32| {
+        (volume.solid.place(cell as usize) - volume.place(origin)).as_vec3().length()
+    };
+    let beside = |cell: u32| {
+        let at = volume.solid.place(cell as usize);
+        let near = neighbourhood().map(move |offset| at + offset);
+        near.filter(|&next| volume.solid.has(next)).map(|next| volume.solid.index(next))
+    };
+    let mut contacts = vec![f32::INFINITY; islands.len()];
+    let mut last = f32::INFINITY;
+    while let Some((bucket, cell)) = queue.pop() {
+        if bucket as f32 / BUCKETS > last {
+            break;
         }
-        let volume = self.volume;
-        room::ask(Of::Cell, 2 * volume.solid.count())?;
-        let mut origins = vec![NONE; volume.slots.len()];
-        let mut is_settled = vec![false; volume.slots.len()];
-        let mut queue = Queue::default();
-        for (slot, _) in self.is_apart.iter().enumerate().filter(|&(_, &is_apart)| !is_apart) {
-            origins[volume.cells[slot] as usize] = slot as u32;
-            queue.push(0, volume.cells[slot]);
+        if std::mem::replace(&mut is_settled[cell as usize], true) {
+            continue;
         }
-        let length = |cell: u32, origin: u32| {
-            (volume.solid.place(cell as usize) - volume.place(origin)).as_vec3().length()
-        };
-        let beside = |cell: u32| {
-            let at = volume.solid.place(cell as usize);
-            let near = neighbourhood().map(move |offset| at + offset);
-            near.filter(|&next| volume.solid.has(next)).map(|next| volume.solid.index(next))
-        };
-        let mut contacts = vec![f32::INFINITY; islands.len()];
-        let mut last = f32::INFINITY;
-        while let Some((bucket, cell)) = queue.pop() {
-            if bucket as f32 / BUCKETS > last {
-                break;
-            }
-            if std::mem::replace(&mut is_settled[cell as usize], true) {
-                continue;
-            }
-            let least = length(cell, origins[cell as usize]);
-            let slot = volume.slots[cell as usize];
-            let island = if slot == NONE { NONE } else { islands[slot as usize] };
-            if island != NONE {
-                let contact = &mut contacts[island as usize];
-                if *contact == f32::INFINITY {
-                    *contact = least;
-                    untouched -= 1;
-                    if untouched == 0 {
-                        last = least + CONTACT;
-                    }
-                }
-                if least <= *contact + CONTACT {
-                    let first = links.len();
-                    // All origins that are as near: else a midline would choose a side.
-                    for from in beside(cell).map(|next| origins[next]) {
-                        if from != NONE
-                            && length(cell, from) <= least + ROUNDING as f32
-                            && links[first..].iter().all(|&(known, _)| known != from)
-                        {
-                            links.push((from, (slot, least)));
-                        }
-                    }
+        let least = length(cell, origins[cell as usize]);
+        let slot = volume.slots[cell as usize];
+        let island = if slot == NONE { NONE } else { islands[slot as usize] };
+        if island != NONE {
+            let contact = &mut contacts[island as usize];
+            if *contact == f32::INFINITY {
+                *contact = least;
+                untouched -= 1;
+                if untouched == 0 {
+                    last = least + CONTACT;
                 }
             }
-            for next in beside(cell) {
-                let (origin, known) = (origins[cell as usize], origins[next]);
-                let candidate = length(next as u32, origin);
-                if !is_settled[next] && (known == NONE || candidate < length(next as u32, known)) {
-                    origins[next] = origin;
-                    queue.push((candidate * BUCKETS) as usize, next as u32);
-                }
+            if least <= *contact + CONTACT {
+                // All origins that are as near: else a midline would choose a side.
+                let is_near = |&from: &u32| from != NONE && length(cell, from) <= least + ROUNDING as f32;
+                let nearest = distinct(beside(cell).map(|next| origins[next]).filter(is_near));
+                links.extend(nearest.into_iter().map(|from| (from, (slot, least))));
             }
         }
-        Ok(links)
+        for next in beside(cell) {
+            let (origin, known) = (origins[cell as usize], origins[next]);
+            let candidate = length(next as u32, origin);
+            if !is_settled[next] && (known == NONE || candidate < length(next as u32, known)) {
+                origins[next] = origin;
+                queue.push((candidate * BUCKETS) as usize, next as u32);
+            }
+        }
     }
+    Ok(links)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -330,11 +290,9 @@ impl Distances {
         sources: impl Iterator<Item = usize>,
         limit: impl Fn(u32) -> f32,
     ) {
-        for &slot in &self.visited {
+        for slot in self.visited.drain(..) {
             self.states[slot as usize] = State::Unknown;
         }
-        self.visited.clear();
-        self.queue.clear();
         let volume = paths.volume;
         let middle = |slot: u32| volume.place(slot).as_dvec3();
         for bone in sources {
@@ -379,7 +337,7 @@ impl Distances {
         for (next, sides) in paths.volume.beside(slot) {
             self.offer(next, length + (sides as f32).sqrt(), bone);
         }
-        for &(to, way) in paths.links_of(slot) {
+        for &(to, way) in paths.links.of(slot as usize) {
             self.offer(to, length + way, bone);
         }
     }

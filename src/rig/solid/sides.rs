@@ -1,6 +1,6 @@
 //! Which side of a surface is its outside, whatever way its triangles face.
 
-use crate::geometry::{by_number, double_area};
+use crate::geometry::{Groups, by_number, double_area};
 use glam::DVec3;
 
 /// The volume of a thing over its area to the power of 1.5 up to which it is a sheet without an outside (a coat 0.005 H
@@ -23,15 +23,13 @@ pub struct Side {
 ///
 /// O(triangles).
 pub fn sides(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Side> {
-    let mut patches = Patches::of(points.len(), triangles);
-    let patch_of: Vec<(u32, bool)> =
-        (0..triangles.len() as u32).map(|triangle| patches.find(triangle)).collect();
+    let patch_of = patches(points.len(), triangles);
     let doubles: Vec<DVec3> = triangles.iter().map(|&corners| double_area(points, corners)).collect();
     let middle =
         |corners: &[u32; 3]| corners.iter().map(|&vertex| points[vertex as usize]).sum::<DVec3>() / 3.0;
     let mut sums = vec![(0.0, DVec3::ZERO); triangles.len()];
     for ((corners, &(patch, _)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
-        let (area, moment) = &mut sums[patch as usize];
+        let (area, moment) = &mut sums[patch];
         *area += double.length();
         *moment += double.length() * middle(corners);
     }
@@ -39,16 +37,16 @@ pub fn sides(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Side> {
     let mut volumes = vec![0.0; triangles.len()];
     let mut as_wound = 0.0;
     for ((corners, &(patch, is_turned)), double) in triangles.iter().zip(&patch_of).zip(&doubles) {
-        let (area, moment) = sums[patch as usize];
+        let (area, moment) = sums[patch];
         let cone = (middle(corners) - moment / area).dot(*double) / 6.0;
         if cone.is_finite() {
-            volumes[patch as usize] += if is_turned { -cone } else { cone };
+            volumes[patch] += if is_turned { -cone } else { cone };
             as_wound += cone;
         }
     }
-    let side = |&(patch, is_turned): &(u32, bool)| {
-        let volume: f64 = volumes[patch as usize];
-        let fullness = volume.abs() / (0.5 * sums[patch as usize].0).powf(1.5);
+    let side = |&(patch, is_turned): &(usize, bool)| {
+        let volume: f64 = volumes[patch];
+        let fullness = volume.abs() / (0.5 * sums[patch].0).powf(1.5);
         let sure = ((fullness - FULLNESS[0]) / (FULLNESS[1] - FULLNESS[0])).clamp(0.0, 1.0);
         let is_inward = if sure > 0.0 { is_turned == (volume > 0.0) } else { as_wound < 0.0 };
         // No area, no volume.
@@ -75,55 +73,35 @@ pub fn outward(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     sums.into_iter().map(|(normal, known, all)| share(known, all) * normal.normalize_or_zero()).collect()
 }
 
-/// Triangles that hang together over edges of two, and how each faces against the first of its patch.
-struct Patches {
-    /// Each triangle's way to the first of its patch: a triangle before it, and whether that one faces another way.
-    above: Vec<(u32, bool)>,
-}
-
-impl Patches {
-    fn of(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        // Edges by their lesser end.
-        let edges = (0u32..).zip(triangles).flat_map(|(triangle, &[a, b, c])| {
-            [(a, b), (b, c), (c, a)]
-                .map(|(one, other)| (one.min(other), (one.max(other), triangle, one < other)))
-        });
-        let (ends, mut sorted) = by_number(vertex_count, edges);
-        let mut patches =
-            Self { above: (0..triangles.len() as u32).map(|triangle| (triangle, false)).collect() };
-        for vertex in 0..vertex_count {
-            let around = &mut sorted[ends[vertex] as usize..ends[vertex + 1] as usize];
-            around.sort_unstable();
-            for edge in around.chunk_by(|one, other| one.0 == other.0) {
-                if let &[(_, one, rises), (_, other, rises_too)] = edge {
-                    patches.join(one, other, rises == rises_too);
+/// For each triangle the first one of those that hang together with it over edges of two, and whether it faces another way than
+/// that one.
+fn patches(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<(usize, bool)> {
+    // Edges by their lesser end.
+    let edges = (0..).zip(triangles).flat_map(|(triangle, &[a, b, c])| {
+        [(a, b), (b, c), (c, a)].map(|(one, other)| (one.min(other), (one.max(other), triangle, one < other)))
+    });
+    let mut edges = by_number(vertex_count, edges);
+    // Each triangle as it is, 2 of its number, and turned over, 1 more.
+    let mut groups = Groups::new(2 * triangles.len());
+    for vertex in 0..vertex_count {
+        let around = edges.of_mut(vertex);
+        around.sort_unstable();
+        for edge in around.chunk_by(|one, other| one.0 == other.0) {
+            if let &[(_, one, rises), (_, other, rises_too)] = edge {
+                let (one, other): (usize, usize) = (2 * one, 2 * other);
+                // What hangs together already stays as it is: a surface may have one side only.
+                if groups.least(one) / 2 != groups.least(other) / 2 {
+                    let differ = usize::from(rises == rises_too);
+                    groups.join(one, other + differ);
+                    groups.join(one + 1, other + 1 - differ);
                 }
             }
         }
-        patches
     }
-
-    /// The first triangle of a triangle's patch, and whether the triangle faces another way.
-    fn find(&mut self, triangle: u32) -> (u32, bool) {
-        let (mut first, mut is_turned) = (triangle, false);
-        while self.above[first as usize].0 != first {
-            let (above, turned) = self.above[first as usize];
-            let (next, turned_too) = self.above[above as usize];
-            // The way is half as long from now on.
-            self.above[first as usize] = (next, turned ^ turned_too);
-            is_turned ^= turned ^ turned_too;
-            first = next;
-        }
-        (first, is_turned)
-    }
-
-    fn join(&mut self, one: u32, other: u32, differ: bool) {
-        let ((one, turned), (other, turned_too)) = (self.find(one), self.find(other));
-        if one != other {
-            let differ = differ ^ turned ^ turned_too;
-            self.above[one.max(other) as usize] = (one.min(other), differ);
-        }
-    }
+    (0..triangles.len())
+        .map(|triangle| groups.least(2 * triangle))
+        .map(|first| (first / 2, first % 2 == 1))
+        .collect()
 }
 
 #[cfg(test)]

@@ -52,13 +52,9 @@ impl Solid {
         let half = ((reach / self.cell).round() as i32).min(self.size.x / 2);
         let first = self.size.x / 2 - half;
         let (columns, depths) = (2 * half + 1, self.size.z);
-        let mut squares = Vec::with_capacity((columns * depths) as usize);
-        for z in 0..depths {
-            for x in first..first + columns {
-                let is_in = self.layers(IVec3::new(x, row, z)) >= layers;
-                squares.push(if is_in { f32::MAX } else { 0.0 });
-            }
-        }
+        let cells = (0..depths).flat_map(|z| (first..first + columns).map(move |x| IVec3::new(x, row, z)));
+        let large = |at: IVec3| if self.layers(at) >= layers { f32::MAX } else { 0.0 };
+        let mut squares: Vec<f32> = cells.map(large).collect();
         let (columns, depths) = (columns as usize, depths as usize);
         distances(&mut squares, columns, depths);
         let depth = squares.into_iter().map(|square| f64::from(square).sqrt() * self.cell).collect();
@@ -115,19 +111,16 @@ impl Slice {
     /// The lobe around its deepest cell: the middle of the cells beside it that are nearly as deep.
     fn lobe(&self, deepest: (usize, usize), columns: Range<usize>) -> Lobe {
         let radius = self.depth_at(deepest);
-        let (mut sum, mut count) = ((0.0, 0.0), 0.0);
         let reach = (radius / self.cell).ceil() as usize;
-        for z in deepest.1.saturating_sub(reach)..(deepest.1 + reach + 1).min(self.depths) {
-            let near = deepest.0.saturating_sub(reach).max(columns.start);
-            for x in near..(deepest.0 + reach + 1).min(columns.end) {
-                if self.depth_at((x, z)) >= CORE * radius {
-                    sum = (sum.0 + x as f64, sum.1 + z as f64);
-                    count += 1.0;
-                }
-            }
-        }
-        let x = (sum.0 / count - (self.columns / 2) as f64).abs() * self.cell;
-        Lobe { x, z: self.low_z + sum.1 / count * self.cell, radius }
+        let near = |at: usize, all: &Range<usize>| {
+            at.saturating_sub(reach).max(all.start)..(at + reach + 1).min(all.end)
+        };
+        let (across, along) = (near(deepest.0, &columns), near(deepest.1, &(0..self.depths)));
+        let cells = along.flat_map(|z| across.clone().map(move |x| (x, z)));
+        let (x, z): (Vec<usize>, Vec<usize>) = cells.filter(|&at| self.depth_at(at) >= CORE * radius).unzip();
+        let mean = |places: Vec<usize>| places.iter().sum::<usize>() as f64 / places.len() as f64;
+        let x = (mean(x) - (self.columns / 2) as f64).abs() * self.cell;
+        Lobe { x, z: self.low_z + mean(z) * self.cell, radius }
     }
 
     /// The depth at which two cells come to hang together, from the deepest cells down.
@@ -166,17 +159,14 @@ impl Slice {
 ///
 /// Felzenszwalb and Huttenlocher. Distance transforms of sampled functions. Theory of Computing 8, 2012.
 fn distances(squares: &mut [f32], columns: usize, rows: usize) {
-    let mut line = vec![0.0f32; columns.max(rows)];
-    for row in 0..rows {
-        let row = &mut squares[row * columns..(row + 1) * columns];
-        line[..columns].copy_from_slice(row);
-        lower_envelope(&line[..columns], |index, value| row[index] = value);
-    }
-    for column in 0..columns {
-        for row in 0..rows {
-            line[row] = squares[row * columns + column];
-        }
-        lower_envelope(&line[..rows], |index, value| squares[index * columns + column] = value);
+    // Where each line starts, how far apart its places are, and how many it has.
+    let along_rows = (0..rows).map(|row| (row * columns, 1, columns));
+    let along_columns = (0..columns).map(|column| (column, columns, rows));
+    let mut line = Vec::with_capacity(columns.max(rows));
+    for (start, step, count) in along_rows.chain(along_columns) {
+        line.clear();
+        line.extend((0..count).map(|index| squares[start + index * step]));
+        lower_envelope(&line, |index, value| squares[start + index * step] = value);
     }
 }
 

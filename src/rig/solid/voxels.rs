@@ -68,7 +68,7 @@ impl Queue {
         self.buckets[bucket].push(item);
     }
 
-    /// The next item, and its number.
+    /// The next item, and its number; after the last one the queue is as new.
     pub(super) fn pop(&mut self) -> Option<(usize, u32)> {
         while let Some(bucket) = self.buckets.get_mut(self.current) {
             if let Some(item) = bucket.pop() {
@@ -76,11 +76,7 @@ impl Queue {
             }
             self.current += 1;
         }
-        None
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.buckets.iter_mut().for_each(Vec::clear);
         self.current = 0;
+        None
     }
 }

@@ -1,11 +1,10 @@
 //! Rows of a cloth's vertices filled in smoothly between those that are kept.
 
-use super::{Match, normalised};
+use super::{Row, normalised};
 use crate::geometry::laplacian::{COLUMNS, Cholesky, cotangent_laplacian};
-use crate::geometry::{NONE, Neighbours, ROUNDING, slots};
+use crate::geometry::{NONE, Neighbours, ROUNDING, Weld, by_key, neighbours, slots};
 use crate::parallel;
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 /// Least weight of an edge with two triangles and greatest weight of any, beside the cotangents': no edge is cut, none
 /// swallows the rest. Seen: ±30 % moves no vertex.
@@ -21,7 +20,7 @@ const SMOOTHING_RINGS: usize = 2;
 /// How much the two ends of each edge pull at each other, above 0.
 pub(super) struct EdgeWeights {
     /// Which vertices have edges to which.
-    pub(super) around: Neighbours,
+    around: Neighbours,
     /// In the order of the neighbours.
     edges: Vec<f64>,
     /// By vertex, the sum over its edges.
@@ -33,14 +32,15 @@ pub(super) struct EdgeWeights {
 impl EdgeWeights {
     /// Cotangents, kept above 0 (obtuse triangles) and away from infinity (slivers), so that the fill stays between the
     /// values around it and edges of triangles without area still join their ends.
-    pub(super) fn new(points: &[DVec3], triangles: &[[u32; 3]], around: Neighbours) -> Self {
+    pub(super) fn new(points: &[DVec3], triangles: &[[u32; 3]], alone: &Weld) -> Self {
+        let around = neighbours(triangles, alone);
         let laplacian = cotangent_laplacian(points, triangles);
         let [least, most] = EDGE_RANGE;
         let place = |vertex: u32, other: u32| {
             let found = around.of(vertex as usize).binary_search(&other).ok();
-            found.map(|place| around.starts[vertex as usize] as usize + place)
+            found.map(|place| around.range(vertex as usize).start + place)
         };
-        let mut edges = vec![0.0f64; around.vertices.len()];
+        let mut edges = vec![0.0f64; around.things.len()];
         for &[a, b, c] in triangles {
             for (one, two) in [(a, b), (b, c), (c, a)] {
                 for place in [place(one, two), place(two, one)].into_iter().flatten() {
@@ -54,17 +54,20 @@ impl EdgeWeights {
                 edges[place] = edges[place].max((-value).min(most));
             }
         }
-        let ranges = around.starts.windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
-        let sums = ranges.map(|range| edges[range].iter().sum()).collect();
+        let sums = (0..around.count()).map(|vertex| edges[around.range(vertex)].iter().sum()).collect();
         let mut areas = laplacian.areas;
-        areas.resize(points.len(), 0.0);
         areas.iter_mut().filter(|area| !area.is_finite()).for_each(|area| *area = 0.0);
         Self { around, edges, sums, areas }
     }
 
+    /// True of a vertex in no triangle.
+    pub(super) fn is_loose(&self, vertex: usize) -> bool {
+        self.around.of(vertex).is_empty()
+    }
+
     /// The neighbours of a vertex with the weights of the edges to them.
     fn of(&self, vertex: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let edges = &self.edges[self.around.starts[vertex] as usize..];
+        let edges = &self.edges[self.around.range(vertex)];
         self.around.of(vertex).iter().copied().zip(edges.iter().copied())
     }
 }
@@ -103,23 +106,19 @@ impl Fill {
         Self { pulls, free, slots, factor }
     }
 
-    /// Gives new rows to all vertices of `matches` that have a pull and to a few around them.
+    /// Gives new rows to all vertices that have a pull and to a few around them; `rows` are those of their matches.
     ///
     /// A vertex of pull 1 keeps the row of its match, one of pull 0 is the mean of its neighbours, one in between a blend
     /// of both; then all is smoothed a little.
     ///
     /// - `weights`: what it was made of.
-    pub(super) fn fill_in(&self, weights: &EdgeWeights, matches: &mut [Match], threads: usize) {
+    pub(super) fn fill_in(&self, weights: &EdgeWeights, rows: &mut [Row], threads: usize) {
         let Some(factor) = &self.factor else { return };
         // The matches' weights by joint.
-        let mut columns: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
-        for (vertex, found) in matches.iter().enumerate().filter(|&(vertex, _)| self.pulls[vertex].is_some())
-        {
-            for &(joint, weight) in &found.row {
-                columns.entry(joint).or_default().push((vertex as u32, weight));
-            }
-        }
-        let columns: Vec<(u32, Vec<(u32, f64)>)> = columns.into_iter().collect();
+        let matched = (0u32..).zip(&*rows).filter(|&(vertex, _)| self.pulls[vertex as usize].is_some());
+        let entries = matched
+            .flat_map(|(vertex, row)| row.iter().map(move |&(joint, weight)| (joint, (vertex, weight))));
+        let columns: Vec<(u32, Vec<(u32, f64)>)> = by_key(entries).into_iter().collect();
         let region = self.region(&weights.around);
         let batches: Vec<_> = columns.chunks(COLUMNS).collect();
         let solved = parallel::collect(threads, batches.len(), 1, |batch| {
@@ -130,7 +129,7 @@ impl Fill {
             let entries = columns.iter().zip(&solved).map(|((joint, _), values)| (*joint, values[slot]));
             let row = normalised(entries.filter(|&(_, weight)| weight >= ROUNDING).collect());
             if !row.is_empty() {
-                matches[vertex as usize].row = row;
+                rows[vertex as usize] = row;
             }
         }
     }

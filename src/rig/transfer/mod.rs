@@ -12,7 +12,8 @@ mod skin;
 use super::{GarmentWeights, WeightSet};
 use crate::character::Weights;
 use crate::geometry::{
-    Closest, ROUNDING, SEAM, Surface, Weld, bounds, bounds_by_group, components, neighbours, weld,
+    Closest, ROUNDING, SEAM, Surface, Weld, bounds, bounds_by_group, by_key, components, triangles_where,
+    weld,
 };
 use crate::parallel;
 use fill::{EdgeWeights, Fill, is_free};
@@ -72,6 +73,22 @@ impl Touch {
         let fit: f64 = self.fits.iter().sum();
         if fit > 0.0 { fit / self.places.iter().map(|(_, share)| share).sum::<f64>() } else { 0.0 }
     }
+
+    /// How far the closest place is.
+    fn distance(&self) -> f64 {
+        self.places.first().map_or(f64::INFINITY, |(at, _)| at.distance)
+    }
+
+    /// What `body` says about the vertex, which is at `p`: the row of those places that match, or of all where none does.
+    fn row(&self, body: &Body, p: DVec3) -> Row {
+        if self.fit() > 0.0 {
+            let fitting: Vec<_> =
+                self.places.iter().zip(&self.fits).map(|(&(at, _), &fit)| (at, fit)).collect();
+            body.mixed(p, &fitting)
+        } else {
+            body.mixed(p, &self.places)
+        }
+    }
 }
 
 impl GarmentOnSkin {
@@ -112,8 +129,10 @@ impl GarmentOnSkin {
                 Touch { fits: places.iter().map(fit).collect(), places }
             })
         };
-        let (joined, touches) = parallel::both(thread_count, || Joined::new(&points, &corners), touch);
-        let cloth = Some(Cloth::new(joined, corners, &touches));
+        let alone = Weld::alone(welded.count);
+        let weights = || EdgeWeights::new(&points, &corners, &alone);
+        let (weights, touches) = parallel::both(thread_count, weights, touch);
+        let cloth = Some(Cloth::new((&points, &alone), corners, weights, &touches));
         Self { welded, points, touches, cloth }
     }
 
@@ -131,39 +150,17 @@ impl GarmentOnSkin {
     pub fn weights(&self, source: &Source, thread_count: usize) -> WeightSet {
         let body = Body::new(source);
         let count = self.welded.count;
-        let mut rules: Vec<Option<&'static str>> = vec![None; count];
-        let rows = match &self.cloth {
-            _ if body.is_empty() => {
-                rules.fill(Some("no_source"));
-                vec![body.anything(); count]
-            }
-            None => parallel::collect(thread_count, count, 256, |vertex| {
-                body.mixed(self.points[vertex], &self.touches[vertex].places)
-            }),
-            Some(cloth) => cloth.rows(&self.points, &body, &self.touches, &mut rules, thread_count),
+        if body.is_empty() {
+            return finish(&self.welded, vec![body.anything(); count], &vec![Some("no_source"); count]);
+        }
+        let mut rows = parallel::collect(thread_count, count, 256, |vertex| {
+            self.touches[vertex].row(&body, self.points[vertex])
+        });
+        let Some(cloth) = &self.cloth else {
+            return finish(&self.welded, rows, &vec![None; count]);
         };
-        finish(&self.welded, rows, &rules)
-    }
-}
-
-/// What the body says about a vertex of the garment.
-struct Match {
-    row: Row,
-    /// 0: not to be trusted; 1: to be kept.
-    fit: f64,
-    distance: f64,
-}
-
-impl Match {
-    /// What `body` says about a vertex at `p`: the row of those places of `touch` that match the vertex at `p`, how
-    /// well they do (0 to 1), and how far they are.
-    /// Where none matches the row is that of the closest place all the same.
-    fn of(body: &Body, p: DVec3, touch: &Touch) -> Self {
-        let Touch { places, fits } = touch;
-        let distance = places.first().map_or(f64::INFINITY, |(at, _)| at.distance);
-        let fit = touch.fit();
-        let fitting: Vec<_> = places.iter().zip(fits).map(|(&(at, _), &share)| (at, share)).collect();
-        Match { row: body.mixed(p, if fit > 0.0 { &fitting } else { places }), fit, distance }
+        cloth.fill_in(self, &body, &mut rows, thread_count);
+        finish(&self.welded, rows, &cloth.rules)
     }
 }
 
@@ -174,180 +171,129 @@ fn reach(points: &[DVec3]) -> f64 {
     (MATCH_DISTANCE * (high - low).length()).clamp(least, most)
 }
 
-/// How the welded vertices of a garment hang together.
-struct Joined {
-    weights: EdgeWeights,
-    /// The component of each vertex, and the greatest extent of each component.
-    component: Vec<u32>,
-    extents: Vec<f64>,
-}
-
-impl Joined {
-    fn new(points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let single = Weld::alone(points.len());
-        let component = components(triangles, &single);
-        let count = component.iter().max().map_or(0, |&last| last as usize + 1);
-        let boxes = bounds_by_group(count, component.iter().map(|&c| c as usize).zip(points.iter().copied()));
-        Self {
-            weights: EdgeWeights::new(points, triangles, neighbours(triangles, &single)),
-            component,
-            extents: boxes.iter().map(|(low, high)| (*high - *low).max_element()).collect(),
-        }
-    }
-
-    fn is_loose(&self, vertex: usize) -> bool {
-        self.weights.around.of(vertex).is_empty()
-    }
-
-    fn is_small(&self, vertex: usize) -> bool {
-        self.extents[self.component[vertex] as usize] < RIGID_EXTENT
-    }
-}
-
 /// A garment between welded vertices, and what is to be filled in of it.
 struct Cloth {
     triangles: Vec<[u32; 3]>,
-    joined: Joined,
+    weights: EdgeWeights,
     /// Vertices of pieces with a match, and how much each is held to it.
     matched: Fill,
     /// Of pieces without one.
     unmatched: Fill,
+    /// The vertices of each piece that moves as one.
+    rigid: Vec<Vec<usize>>,
+    /// By vertex, the rule by which it gets its row, where that is not what the body says.
+    rules: Vec<Option<&'static str>>,
 }
 
 impl Cloth {
-    fn new(joined: Joined, triangles: Vec<[u32; 3]>, touches: &[Touch]) -> Self {
+    /// The cloth of `triangles` between `points`, which are all `alone`.
+    fn new(
+        (points, alone): (&[DVec3], &Weld),
+        triangles: Vec<[u32; 3]>,
+        weights: EdgeWeights,
+        touches: &[Touch],
+    ) -> Self {
+        let component = components(&triangles, alone);
+        let component = |vertex: usize| component[vertex] as usize;
+        let vertices = || 0..points.len();
+        let count = vertices().map(component).max().map_or(0, |last| last + 1);
+        let boxes = bounds_by_group(count, vertices().map(|vertex| (component(vertex), points[vertex])));
+        let is_small = |vertex: usize| {
+            let (low, high) = boxes[component(vertex)];
+            (high - low).max_element() < RIGID_EXTENT
+        };
         let fits: Vec<f64> = touches.iter().map(Touch::fit).collect();
-        let mut best = vec![0.0f64; joined.extents.len()];
-        for (&fit, &component) in fits.iter().zip(&joined.component) {
-            let best = &mut best[component as usize];
-            *best = best.max(fit);
+        let mut best = vec![0.0f64; count];
+        for (vertex, &fit) in fits.iter().enumerate() {
+            best[component(vertex)] = best[component(vertex)].max(fit);
         }
-        let is_large = |vertex: usize| !joined.is_loose(vertex) && !joined.is_small(vertex);
-        let is_matched = |vertex: usize| best[joined.component[vertex] as usize] >= 0.5;
+        let is_large = |vertex: usize| !weights.is_loose(vertex) && !is_small(vertex);
+        let is_matched = |vertex: usize| best[component(vertex)] >= 0.5;
         let to_match = |vertex: usize| (is_large(vertex) && is_matched(vertex)).then_some(fits[vertex]);
         let to_closest = |vertex: usize| {
-            let loose = joined.weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
+            let loose = weights.areas[vertex] / LOOSE_SMOOTHING.powi(2);
             // As a share of what the neighbours say, which is what a fit is.
-            let share = || loose / (loose + joined.weights.sums[vertex]);
+            let share = || loose / (loose + weights.sums[vertex]);
             (is_large(vertex) && !is_matched(vertex)).then(share)
         };
-        let matched = Fill::new(&joined.weights, (0..fits.len()).map(to_match).collect());
-        let unmatched = Fill::new(&joined.weights, (0..fits.len()).map(to_closest).collect());
-        Self { triangles, joined, matched, unmatched }
+        let matched = Fill::new(&weights, vertices().map(to_match).collect());
+        let unmatched = Fill::new(&weights, vertices().map(to_closest).collect());
+        let small = vertices().filter(|&vertex| is_small(vertex) && !weights.is_loose(vertex));
+        let rigid = by_key(small.map(|vertex| (component(vertex), vertex))).into_values().collect();
+        let filled_in = Some(if matched.factor.is_some() { "inpainted" } else { "unsolved" });
+        let rule = |vertex: usize| match (matched.pulls[vertex], unmatched.pulls[vertex]) {
+            (None, None) if weights.is_loose(vertex) => Some("loose_vertex"),
+            (None, None) => Some("rigid_piece"),
+            (None, Some(_)) => Some("component_without_match"),
+            (pull, _) => filled_in.filter(|_| is_free(pull)),
+        };
+        let rules = vertices().map(rule).collect();
+        Self { triangles, weights, matched, unmatched, rigid, rules }
     }
 
-    /// The rows of all vertices at `points`.
-    fn rows(
-        &self,
-        points: &[DVec3],
-        body: &Body,
-        touches: &[Touch],
-        rules: &mut [Option<&'static str>],
-        threads: usize,
-    ) -> Vec<Row> {
-        let mut matches = parallel::collect(threads, points.len(), 256, |vertex| {
-            Match::of(body, points[vertex], &touches[vertex])
-        });
+    /// Gives new rows to the vertices of `garment`, whose cloth this is, that the body says too little about.
+    fn fill_in(&self, garment: &GarmentOnSkin, body: &Body, rows: &mut [Row], threads: usize) {
         // Pieces with a match first: what hangs from them can follow them then.
-        let Self { joined, matched, unmatched, .. } = self;
-        for (vertex, &pull) in matched.pulls.iter().enumerate() {
-            if is_free(pull) {
-                rules[vertex] = Some(if matched.factor.is_some() { "inpainted" } else { "unsolved" });
-            }
-        }
-        matched.fill_in(&joined.weights, &mut matches, threads);
-        let mut done: Vec<bool> = matched.pulls.iter().map(Option::is_some).collect();
-
+        let Self { weights, matched, unmatched, .. } = self;
+        matched.fill_in(weights, rows, threads);
         // Pieces without a match: after the body or after the cloth that has its weights, whichever is nearer.
-        let pulls = &unmatched.pulls;
-        if pulls.iter().any(Option::is_some) {
-            self.follow_cloth(points, &mut matches, &done, threads);
-            unmatched.fill_in(&joined.weights, &mut matches, threads);
-            for (vertex, pull) in pulls.iter().enumerate() {
-                if pull.is_some() {
-                    rules[vertex] = Some("component_without_match");
-                    done[vertex] = true;
-                }
-            }
+        if unmatched.pulls.iter().any(Option::is_some) {
+            self.follow_cloth(garment, rows, threads);
+            unmatched.fill_in(weights, rows, threads);
         }
-
-        self.rigid_pieces(points, body, &mut matches, rules, &done);
-        for (vertex, rule) in rules.iter_mut().enumerate() {
-            if joined.is_loose(vertex) {
-                *rule = Some("loose_vertex");
-            }
-        }
-        matches.into_iter().map(|found| found.row).collect()
+        self.rigid_pieces(garment, body, rows);
     }
 
-    /// The triangles between vertices that are `done`, and their surface.
-    fn made_of(&self, points: &[DVec3], done: &[bool]) -> (Vec<[u32; 3]>, Surface) {
-        let is_done = |corners: &&[u32; 3]| corners.iter().all(|&vertex| done[vertex as usize]);
-        let triangles: Vec<[u32; 3]> = self.triangles.iter().filter(is_done).copied().collect();
+    /// Gives the vertices of pieces without a match the row of the closest cloth with one, where that is nearer than the body.
+    fn follow_cloth(&self, garment: &GarmentOnSkin, rows: &mut [Row], threads: usize) {
+        let GarmentOnSkin { points, touches, .. } = garment;
+        let triangles = triangles_where(&self.triangles, |vertex| self.matched.pulls[vertex].is_some());
         let surface = Surface::new(points, &triangles);
-        (triangles, surface)
-    }
-
-    /// Gives the vertices of pieces without a match the row of the closest cloth that is `done`, where that is nearer than
-    /// the body.
-    fn follow_cloth(&self, points: &[DVec3], matches: &mut [Match], done: &[bool], threads: usize) {
-        let (triangles, surface) = self.made_of(points, done);
         if surface.is_empty() {
             return;
         }
-        let known: &[Match] = matches;
-        let rows = parallel::collect(threads, known.len(), 256, |vertex| {
+        let known: &[Row] = rows;
+        let nearer = parallel::collect(threads, known.len(), 256, |vertex| {
             let near = self.unmatched.pulls[vertex].and_then(|_| surface.closest_point(points[vertex]))?;
-            (near.distance < known[vertex].distance).then(|| blend_rows(known, &triangles, &near))
+            (near.distance < touches[vertex].distance()).then(|| blend_rows(known, &triangles, &near))
         });
-        for (found, row) in matches.iter_mut().zip(rows) {
-            if let Some(row) = row.filter(|row| !row.is_empty()) {
-                found.row = row;
+        for (row, nearer) in rows.iter_mut().zip(nearer) {
+            if let Some(nearer) = nearer.filter(|nearer| !nearer.is_empty()) {
+                *row = nearer;
             }
         }
     }
 
-    /// One row for each small piece: the mean of what matches, else what is nearest to its middle, be it cloth that is
-    /// `done` or the body.
-    fn rigid_pieces(
-        &self,
-        points: &[DVec3],
-        body: &Body,
-        matches: &mut [Match],
-        rules: &mut [Option<&'static str>],
-        done: &[bool],
-    ) {
-        let mut pieces: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for vertex in 0..matches.len() {
-            if self.joined.is_small(vertex) && !self.joined.is_loose(vertex) {
-                pieces.entry(self.joined.component[vertex]).or_default().push(vertex);
-            }
-        }
-        if pieces.is_empty() {
+    /// One row for each small piece: the mean of what matches, else what is nearest to its middle, be it cloth that is large
+    /// or the body.
+    fn rigid_pieces(&self, garment: &GarmentOnSkin, body: &Body, rows: &mut [Row]) {
+        let GarmentOnSkin { points, touches, .. } = garment;
+        if self.rigid.is_empty() {
             return;
         }
-        let (triangles, surface) = self.made_of(points, done);
-        for piece in pieces.into_values() {
+        let is_large = |vertex: usize| self.matched.pulls[vertex].or(self.unmatched.pulls[vertex]).is_some();
+        let triangles = triangles_where(&self.triangles, is_large);
+        let surface = Surface::new(points, &triangles);
+        for piece in &self.rigid {
             let middle = piece.iter().map(|&vertex| points[vertex]).sum::<DVec3>() / piece.len() as f64;
-            let to_body = piece.iter().map(|&vertex| matches[vertex].distance).fold(f64::INFINITY, f64::min);
+            let to_body =
+                piece.iter().map(|&vertex| touches[vertex].distance()).fold(f64::INFINITY, f64::min);
             let cloth = surface.closest_point(middle).filter(|near| near.distance < to_body);
-            let row = cloth.map(|near| blend_rows(matches, &triangles, &near)).unwrap_or_else(|| {
-                let fitting = piece.iter().map(|&vertex| &matches[vertex]);
-                blended(fitting.map(|found| (found.fit, found.row.iter().copied())))
+            let row = cloth.map(|near| blend_rows(rows, &triangles, &near)).unwrap_or_else(|| {
+                blended(piece.iter().map(|&vertex| (touches[vertex].fit(), rows[vertex].iter().copied())))
             });
             let row = if row.is_empty() { body.closest(middle) } else { row };
-            for vertex in piece {
-                matches[vertex].row = row.clone();
-                rules[vertex] = Some("rigid_piece");
+            for &vertex in piece {
+                rows[vertex] = row.clone();
             }
         }
     }
 }
 
 /// The barycentric blend of rows of the cloth itself.
-fn blend_rows(matches: &[Match], triangles: &[[u32; 3]], at: &Closest) -> Row {
+fn blend_rows(rows: &[Row], triangles: &[[u32; 3]], at: &Closest) -> Row {
     let corners = triangles[at.triangle].into_iter().zip(at.barycentric);
-    blended(corners.map(|(vertex, share)| (share, matches[vertex as usize].row.iter().copied())))
+    blended(corners.map(|(vertex, share)| (share, rows[vertex as usize].iter().copied())))
 }
 
 /// Where the welded vertices are; the origin where that is no number.

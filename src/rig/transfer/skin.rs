@@ -162,28 +162,25 @@ impl<'a> Body<'a> {
 /// Unit normals of welded vertices: means over the triangles, weighted by area; where two sides of one cloth cancel out,
 /// all are turned to the side of the largest triangle. 0 where there is no triangle with an area.
 pub(super) fn normals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let corners = || {
+        triangles.iter().flat_map(|&corners| {
+            let normal = double_area(points, corners);
+            corners.map(|vertex| (vertex as usize, normal))
+        })
+    };
     let mut sums = vec![(DVec3::ZERO, 0.0, DVec3::ZERO); points.len()];
-    for corners in triangles {
-        let normal = double_area(points, *corners);
-        for &vertex in corners {
-            let (sum, total, largest) = &mut sums[vertex as usize];
-            *sum += normal;
-            *total += normal.length();
-            if normal.length_squared() > largest.length_squared() {
-                *largest = normal;
-            }
+    for (vertex, normal) in corners() {
+        let (sum, total, largest) = &mut sums[vertex];
+        *sum += normal;
+        *total += normal.length();
+        if normal.length_squared() > largest.length_squared() {
+            *largest = normal;
         }
     }
     let cancels = |&(sum, total, _): &(DVec3, f64, DVec3)| sum.length() < CANCELLED * total;
     let mut one_sided = vec![DVec3::ZERO; points.len()];
-    if sums.iter().any(cancels) {
-        for corners in triangles {
-            let normal = double_area(points, *corners);
-            for &vertex in corners {
-                let side = normal.dot(sums[vertex as usize].2);
-                one_sided[vertex as usize] += if side < 0.0 { -normal } else { normal };
-            }
-        }
+    for (vertex, normal) in corners().filter(|&(vertex, _)| cancels(&sums[vertex])) {
+        one_sided[vertex] += if normal.dot(sums[vertex].2) < 0.0 { -normal } else { normal };
     }
     sums.iter()
         .zip(one_sided)

@@ -6,7 +6,7 @@ use super::shorten::shorten;
 use crate::character::bones::Bone;
 use crate::character::{Character, MeshKind, Role};
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::{Weld, bounds, components};
+use crate::geometry::{Weld, bounds, by_key, components};
 use crate::options::Options;
 use crate::shape::Measured;
 use crate::shape::field::{Binding, BodyField, Field};
@@ -15,7 +15,7 @@ use crate::shape::measured::is_of_head;
 use crate::shape::placement::{Bindings, Body, GroundContact, Placement, joint_bindings};
 use crate::shape::style::Style;
 use glam::DVec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The paper's way to give `character` the style.
@@ -77,12 +77,10 @@ fn bindings(character: &Character, measured: &Measured, field: &BoneField) -> Bi
 /// Hats and glasses: components of accessories that the head moves, with the middle of each.
 fn head_accessories(figure: &Figure, weld: &Weld) -> Vec<(Vec<usize>, DVec3)> {
     let component = components(&figure.triangles, weld);
-    let mut pieces: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for vertex in 0..figure.positions.len() {
-        if figure.kind(vertex) == MeshKind::Accessory && is_of_head(figure, vertex) {
-            pieces.entry(component[weld.representative[vertex] as usize]).or_default().push(vertex);
-        }
-    }
+    let is_on_head =
+        |&vertex: &usize| figure.kind(vertex) == MeshKind::Accessory && is_of_head(figure, vertex);
+    let on_head = (0..figure.positions.len()).filter(is_on_head);
+    let pieces = by_key(on_head.map(|vertex| (component[weld.representative[vertex] as usize], vertex)));
     let with_middle = |members: Vec<usize>| {
         let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex]));
         (members, (low + high) / 2.0)

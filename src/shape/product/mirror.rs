@@ -7,11 +7,10 @@
 use super::pieces::once;
 use crate::character::MeshKind;
 use crate::geometry::point_tree::Near;
-use crate::geometry::{PointTree, Weld, smoothstep, upper_median, weld};
+use crate::geometry::{PointTree, Weld, by_key, smoothstep, upper_median, weld};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 /// A vertex has a twin where its mirror image is no further from one than this share of H; at half of that it is one whole. D34:
 /// a hundred times what a float rounds, a twentieth of a fine mesh's edges.
@@ -105,12 +104,8 @@ impl Mirror {
             let p = if point < positions.len() { positions[point] } else { joints[point - positions.len()] };
             shares(&tree, p).map(|(index, share)| (whole[index as usize], share))
         });
-        let mut things: BTreeMap<Thing, Vec<u32>> = BTreeMap::new();
-        for point in 0..twins.len() {
-            if let Some(thing) = goes_with(point) {
-                things.entry(thing).or_default().push(point as u32);
-            }
-        }
+        let points = 0..twins.len();
+        let mut things = by_key(points.filter_map(|point| Some((goes_with(point)?, point as u32))));
         let is_joint = |point: u32| point as usize >= positions.len();
         things.retain(|_, thing| thing.iter().any(|&point| is_joint(point) || twins[point as usize].1 < 1.0));
         let at_places = |thing: Vec<u32>| {
