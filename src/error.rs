@@ -90,16 +90,13 @@ impl fmt::Display for Named<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut left = Self::MOST;
         for letter in self.0.chars() {
-            let escaped = letter.is_control().then(|| letter.escape_debug());
-            let size = escaped.as_ref().map_or(letter.len_utf8(), |escaped| escaped.clone().count());
-            if size > left {
+            let shown =
+                if letter.is_control() { letter.escape_debug().to_string() } else { letter.to_string() };
+            if shown.len() > left {
                 return f.write_str("...");
             }
-            left -= size;
-            match escaped {
-                Some(escaped) => write!(f, "{escaped}")?,
-                None => write!(f, "{letter}")?,
-            }
+            left -= shown.len();
+            f.write_str(&shown)?;
         }
         Ok(())
     }

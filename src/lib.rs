@@ -121,29 +121,14 @@ pub use shape::{BodyShape, BoneShape, Coefficient, GroupShape, Heights, Style};
 #[doc(hidden)]
 #[allow(missing_docs)]
 pub mod internals {
-    pub mod character {
-        pub use crate::character::*;
+    macro_rules! modules {
+        ($($name:ident)+) => {
+            $(pub mod $name {
+                pub use crate::$name::*;
+            })+
+        };
     }
-    pub mod face {
-        pub use crate::face::*;
-    }
+    modules! { character face geometry parallel pipeline rig shape }
     #[cfg(any(not(target_arch = "wasm32"), feature = "exports"))]
-    pub mod ffi {
-        pub use crate::ffi::*;
-    }
-    pub mod geometry {
-        pub use crate::geometry::*;
-    }
-    pub mod parallel {
-        pub use crate::parallel::*;
-    }
-    pub mod pipeline {
-        pub use crate::pipeline::*;
-    }
-    pub mod rig {
-        pub use crate::rig::*;
-    }
-    pub mod shape {
-        pub use crate::shape::*;
-    }
+    modules! { ffi }
 }

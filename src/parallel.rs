@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
-use std::thread::LocalKey;
+use std::thread::{LocalKey, Scope, ScopedJoinHandle};
 
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
@@ -133,7 +133,7 @@ pub fn collect_with<S, T: Send>(
             (share..count).step_by(share).map(|first| beside(scope, move || work(first))).collect();
         run(0..share.min(count), &mut all);
         for other in others {
-            all.extend(other.join());
+            all.extend(joined(other));
         }
     });
     all
@@ -151,41 +151,28 @@ fn by_jobs<T: Send>(jobs: &dyn Jobs, count: usize, make: impl Fn(usize) -> T + S
             *place = Some(within(&IN_TASK, || alone(work)));
         }
     });
-    let take = |(index, place): (usize, Mutex<Option<std::thread::Result<T>>>)| match place
-        .into_inner()
-        .unwrap_or_else(PoisonError::into_inner)
-    {
-        Some(made) => made.unwrap_or_else(|panic| resume_unwind(panic)),
-        None => make(index),
-    };
-    places.into_iter().enumerate().map(take).collect()
+    let made = places.into_iter().enumerate().map(|(index, place)| {
+        let made = place.into_inner().unwrap_or_else(PoisonError::into_inner);
+        made.map_or_else(|| make(index), |made| made.unwrap_or_else(|panic| resume_unwind(panic)))
+    });
+    made.collect()
 }
 
-/// Work that another thread does, or that is left for when it is asked for.
-enum Beside<'scope, W, T> {
-    Thread(std::thread::ScopedJoinHandle<'scope, T>),
-    Left(W),
-}
-
-impl<W: FnOnce() -> T, T> Beside<'_, W, T> {
-    /// What the work gives; a panic of it goes on here.
-    fn join(self) -> T {
-        match self {
-            Self::Thread(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-            Self::Left(work) => work(),
-        }
-    }
-}
-
-/// Has `work` done by a thread of its own, if the system starts one: sandboxes and limits may forbid it.
+/// Has `work` done by a thread of its own, if the system starts one: sandboxes and limits may forbid it, and the work is given
+/// back.
 fn beside<'scope, T: Send + 'scope, W: Clone + FnOnce() -> T + Send + 'scope>(
-    scope: &'scope std::thread::Scope<'scope, '_>,
+    scope: &'scope Scope<'scope, '_>,
     work: W,
-) -> Beside<'scope, W, T> {
+) -> Result<ScopedJoinHandle<'scope, T>, W> {
     let thread = std::thread::Builder::new().name(WORKER.to_string());
-    match thread.spawn_scoped(scope, work.clone()) {
-        Ok(thread) => Beside::Thread(thread),
-        Err(_) => Beside::Left(work),
+    thread.spawn_scoped(scope, work.clone()).map_err(|_| work)
+}
+
+/// What work gives that is done beside this, or is left to be done; a panic of it goes on here.
+fn joined<T>(work: Result<ScopedJoinHandle<'_, T>, impl FnOnce() -> T>) -> T {
+    match work {
+        Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+        Err(work) => work(),
     }
 }
 
@@ -197,7 +184,7 @@ pub fn both<A: Send, B>(threads: usize, one: impl Fn() -> A + Sync, other: impl 
     std::thread::scope(|scope| {
         let one = beside(scope, &one);
         let other = other();
-        (one.join(), other)
+        (joined(one), other)
     })
 }
 

@@ -33,8 +33,7 @@ impl<'a> Progress<'a> {
     /// `ErrorKind::Cancelled` where the answer is to stop.
     pub fn at(&mut self, fraction: f32) -> Result<()> {
         let fraction = self.share(fraction);
-        let goes_on = self.callback.as_mut().is_none_or(|callback| callback(fraction));
-        if goes_on {
+        if self.callback.as_mut().is_none_or(|callback| callback(fraction)) {
             return Ok(());
         }
         Err(Error::new(ErrorKind::Cancelled, "the progress callback asked to stop: everything is as it was"))

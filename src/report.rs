@@ -114,13 +114,10 @@ impl ProfileReport {
     /// The profiles of `target` and `result`, and what `style` wants of a body.
     pub fn of(target: &Measured, style: &Style, result: &Measured) -> Self {
         let wanted = wanted_of(style).map(|(wanted, _)| wanted);
-        let ratios = match (&wanted, &result.shape.profile) {
-            (Some(wanted), Some(result)) => {
-                CHAINS.into_iter().zip(result.ratios(wanted)).filter(|(_, ratio)| ratio.is_finite()).collect()
-            }
-            _ => BTreeMap::new(),
-        };
         let (target, result) = (target.shape.profile.clone(), result.shape.profile.clone());
+        let both = wanted.iter().zip(&result);
+        let ratios = both.flat_map(|(wanted, result)| CHAINS.into_iter().zip(result.ratios(wanted)));
+        let ratios = ratios.filter(|(_, ratio)| ratio.is_finite()).collect();
         Self { target, reference: wanted, result, ratios }
     }
 }

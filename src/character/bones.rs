@@ -8,70 +8,55 @@ use Role::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The built-in bone groups; left and right belong together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Group {
+/// The built-in bone groups, from the head down, with their names.
+macro_rules! groups {
+    ($($(#[doc = $text:literal])+ $group:ident: $name:literal;)+) => {
+        /// The built-in bone groups; left and right belong together.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Group {
+            $($(#[doc = $text])+ $group),+
+        }
+
+        impl Group {
+            /// All groups, from the head down.
+            pub const ALL: [Group; [$($name),+].len()] = [$(Group::$group),+];
+
+            /// The name in options and reports, such as `upper_arm`.
+            pub fn name(self) -> &'static str {
+                [$($name),+][self as usize]
+            }
+        }
+    };
+}
+
+groups! {
     /// Head joint to head top.
-    Head,
+    Head: "head";
     /// Neck joint to head joint.
-    Neck,
+    Neck: "neck";
     /// Hips to neck joint.
-    Torso,
+    Torso: "torso";
     /// Chest to upper arm.
-    Shoulder,
+    Shoulder: "shoulder";
     /// Upper arm to elbow.
-    UpperArm,
+    UpperArm: "upper_arm";
     /// Elbow to wrist.
-    LowerArm,
+    LowerArm: "lower_arm";
     /// Wrist to the first joint of each finger: the palm.
-    Hand,
+    Hand: "hand";
     /// Between the joints of a finger.
-    Finger,
+    Finger: "finger";
     /// Hips to upper leg.
-    Hip,
+    Hip: "hip";
     /// Upper leg to knee.
-    UpperLeg,
+    UpperLeg: "upper_leg";
     /// Knee to ankle.
-    LowerLeg,
+    LowerLeg: "lower_leg";
     /// Ankle to toes.
-    Foot,
+    Foot: "foot";
 }
 
 impl Group {
-    /// All groups, from the head down.
-    pub const ALL: [Group; 12] = [
-        Group::Head,
-        Group::Neck,
-        Group::Torso,
-        Group::Shoulder,
-        Group::UpperArm,
-        Group::LowerArm,
-        Group::Hand,
-        Group::Finger,
-        Group::Hip,
-        Group::UpperLeg,
-        Group::LowerLeg,
-        Group::Foot,
-    ];
-
-    /// The name in options and reports, such as `upper_arm`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Group::Head => "head",
-            Group::Neck => "neck",
-            Group::Torso => "torso",
-            Group::Shoulder => "shoulder",
-            Group::UpperArm => "upper_arm",
-            Group::LowerArm => "lower_arm",
-            Group::Hand => "hand",
-            Group::Finger => "finger",
-            Group::Hip => "hip",
-            Group::UpperLeg => "upper_leg",
-            Group::LowerLeg => "lower_leg",
-            Group::Foot => "foot",
-        }
-    }
-
     /// The group named `name`.
     pub fn from_name(name: &str) -> Option<Group> {
         Group::ALL.into_iter().find(|group| group.name() == name)
@@ -179,12 +164,10 @@ pub fn bones(roles: &BTreeSet<Role>, groups: &BTreeMap<Role, String>) -> Vec<Bon
 /// The end of the first of those bones of a complete skeleton for which the bone from `parent` to `child` stands. From
 /// the trunk to an arm it is the shoulder's: without an upper chest, chest to shoulder is no torso.
 fn first_of(parent: Role, child: Role) -> Option<Role> {
-    let is_arm = |role: Role| Group::ending_at(role) == Some(Group::Shoulder);
+    let is_of_trunk = matches!(parent, Spine | Chest | UpperChest);
+    let is_arm = |role: &Role| is_of_trunk && Group::ending_at(*role) == Some(Group::Shoulder);
     let path = || child.chain().take_while(|&role| role != parent);
-    match parent {
-        Spine | Chest | UpperChest => path().filter(|&role| is_arm(role)).last().or_else(|| path().last()),
-        _ => path().last(),
-    }
+    path().filter(is_arm).last().or_else(|| path().last())
 }
 
 #[cfg(test)]

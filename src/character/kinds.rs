@@ -215,12 +215,9 @@ impl Place {
         if let Some(head) = character.humanoid.joint(Role::Head)
             && character.skeleton.validate().is_ok()
         {
-            let joints = &character.skeleton.joints;
-            let mut of_head = vec![false; joints.len()];
-            for joint in character.skeleton.parents_first() {
-                of_head[joint] = joint == head || joints[joint].parent.is_some_and(|parent| of_head[parent]);
-            }
-            return Self::Rigged(of_head);
+            let skeleton = &character.skeleton;
+            let of_head = |joint: usize| skeleton.ancestors(joint).any(|above| above == head);
+            return Self::Rigged((0..skeleton.joints.len()).map(of_head).collect());
         }
         let up = character.axes.up;
         let heights = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.dot(up)));
@@ -235,20 +232,15 @@ impl Place {
         }
         match self {
             Self::Rigged(of_head) => {
-                let rows = mesh.weights.rows();
-                let held: f64 = rows
-                    .flat_map(|row| {
-                        row.iter().filter(|&&(joint, _)| of_head.get(joint as usize) == Some(&true))
-                    })
-                    .map(|&(_, weight)| f64::from(weight))
-                    .sum();
-                let share = held / mesh.weights.row_count().max(1) as f64;
-                share
-                    >= match kind {
-                        MeshKind::Hair => HAIR_OF_HEAD,
-                        MeshKind::Eye => EYE_OF_HEAD,
-                        _ => FACE_OF_HEAD,
-                    }
+                let entries = mesh.weights.rows().flatten();
+                let of_head = entries.filter(|&&(joint, _)| of_head.get(joint as usize) == Some(&true));
+                let held: f64 = of_head.map(|&(_, weight)| f64::from(weight)).sum();
+                let least = match kind {
+                    MeshKind::Hair => HAIR_OF_HEAD,
+                    MeshKind::Eye => EYE_OF_HEAD,
+                    _ => FACE_OF_HEAD,
+                };
+                held / mesh.weights.row_count().max(1) as f64 >= least
             }
             Self::Extent { up, low, high } => {
                 let chin = low + LOWEST_CHIN * (high - low);

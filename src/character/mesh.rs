@@ -18,41 +18,35 @@ pub struct MorphTarget {
 }
 
 impl MorphTarget {
-    /// Checks target number `target` against the number of vertices; the error is the vertex and a sentence.
-    pub(crate) fn validate(
-        &self,
-        target: usize,
-        vertex_count: usize,
-    ) -> std::result::Result<(), (Option<usize>, String)> {
+    /// Checks target number `target` against the number of vertices.
+    pub(crate) fn check(&self, target: usize, vertex_count: usize) -> std::result::Result<(), Fault> {
+        let name = Named(&self.name);
         for (what, deltas, may_be_empty) in [
             ("position", &self.positions, false),
             ("normal", &self.normals, true),
             ("tangent", &self.tangents, true),
         ] {
-            if deltas.len() != vertex_count && !(may_be_empty && deltas.is_empty()) {
-                return Err((
-                    None,
-                    format!(
-                        "morph target {target} ({}) has {} {what} deltas for {vertex_count} vertices: give one a vertex",
-                        Named(&self.name),
-                        deltas.len()
-                    ),
-                ));
+            let count = deltas.len();
+            if count != vertex_count && !(may_be_empty && deltas.is_empty()) {
+                let message = format!(
+                    "morph target {target} ({name}) has {count} {what} deltas for {vertex_count} vertices: give one a vertex"
+                );
+                return Err((None, message));
             }
             if let Some(vertex) = deltas.iter().position(|d| !d.is_finite()) {
-                return Err((
-                    Some(vertex),
-                    format!(
-                        "morph target {target} ({}) moves the {what} of vertex {vertex} by {}: deltas must be finite",
-                        Named(&self.name),
-                        deltas[vertex]
-                    ),
-                ));
+                let message = format!(
+                    "morph target {target} ({name}) moves the {what} of vertex {vertex} by {}: deltas must be finite",
+                    deltas[vertex]
+                );
+                return Err((Some(Element::Vertex(vertex)), message));
             }
         }
         Ok(())
     }
 }
+
+/// What is wrong with a mesh: where, and a sentence.
+pub(crate) type Fault = (Option<Element>, String);
 
 /// A mesh in sentences: its index, and its name where it has one.
 pub(crate) fn place(index: usize, name: &str) -> String {
@@ -90,61 +84,54 @@ impl Mesh {
     /// # Errors
     /// `ErrorKind::BadInput` with the mesh, the element, the value and the remedy.
     pub fn validate(&self, index: usize, joint_count: usize) -> Result<()> {
-        let place = place(index, &self.name);
-        let bad = |element: Option<Element>, message: String| {
-            let error = Error::new(ErrorKind::BadInput, format!("{place}: {message}")).in_mesh(index);
-            Err(Error { element, ..error })
-        };
+        self.check(joint_count).map_err(|fault| self.error(index, fault))
+    }
+
+    /// The error for what is wrong with it, which is mesh number `index`.
+    pub(crate) fn error(&self, index: usize, (element, message): Fault) -> Error {
+        let message = format!("{}: {message}", place(index, &self.name));
+        Error { element, ..Error::new(ErrorKind::BadInput, message).in_mesh(index) }
+    }
+
+    /// See [`Mesh::validate`].
+    fn check(&self, joint_count: usize) -> std::result::Result<(), Fault> {
+        let at_vertex = |vertex: usize, message: String| Err((Some(Element::Vertex(vertex)), message));
         let count = self.positions.len();
-        for (vertex, p) in self.positions.iter().enumerate() {
-            if !p.is_finite() {
-                return bad(
-                    Some(Element::Vertex(vertex)),
-                    format!("vertex {vertex} is at {p}: positions must be finite numbers"),
-                );
-            }
+        if let Some(vertex) = self.positions.iter().position(|p| !p.is_finite()) {
+            let p = self.positions[vertex];
+            return at_vertex(vertex, format!("vertex {vertex} is at {p}: positions must be finite numbers"));
         }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= count) {
-                return bad(
-                    Some(Element::Triangle(triangle)),
-                    format!(
-                        "triangle {triangle} uses vertex {vertex}, but the mesh has {count} vertices: give indices from 0 to that less 1"
-                    ),
+                let message = format!(
+                    "triangle {triangle} uses vertex {vertex}, but the mesh has {count} vertices: give indices from 0 to that less 1"
                 );
+                return Err((Some(Element::Triangle(triangle)), message));
             }
         }
-        let lengths = [("normals", self.normals.len()), ("tangents", self.tangents.len())];
-        for (what, length) in lengths {
+        for (what, length) in [("normals", self.normals.len()), ("tangents", self.tangents.len())] {
             if length != 0 && length != count {
-                return bad(
-                    None,
-                    format!("{length} {what} for {count} vertices: give one a vertex, or none"),
-                );
+                let message = format!("{length} {what} for {count} vertices: give one a vertex, or none");
+                return Err((None, message));
             }
         }
         if let Some(vertex) = self.normals.iter().position(|n| !n.is_finite()) {
-            return bad(
-                Some(Element::Vertex(vertex)),
-                format!("the normal of vertex {vertex} is {}: normals must be finite", self.normals[vertex]),
+            let n = self.normals[vertex];
+            return at_vertex(
+                vertex,
+                format!("the normal of vertex {vertex} is {n}: normals must be finite"),
             );
         }
         if let Some(vertex) = self.tangents.iter().position(|t| !t.is_finite()) {
-            return bad(
-                Some(Element::Vertex(vertex)),
-                format!(
-                    "the tangent of vertex {vertex} is {}: tangents must be finite",
-                    self.tangents[vertex]
-                ),
+            let t = self.tangents[vertex];
+            return at_vertex(
+                vertex,
+                format!("the tangent of vertex {vertex} is {t}: tangents must be finite"),
             );
         }
         for (target, morph) in self.morph_targets.iter().enumerate() {
-            morph
-                .validate(target, count)
-                .or_else(|(vertex, message)| bad(vertex.map(Element::Vertex), message))?;
+            morph.check(target, count)?;
         }
-        self.weights
-            .validate(count, joint_count)
-            .or_else(|(vertex, message)| bad(vertex.map(Element::Vertex), message))
+        self.weights.check(count, joint_count)
     }
 }

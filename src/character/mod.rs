@@ -68,38 +68,28 @@ impl Character {
     /// # Errors
     /// `ErrorKind::BadInput` names the first mesh and element at fault, its value and the remedy.
     pub fn validate(&self) -> Result<()> {
-        if !self.axes.up.is_finite() || self.axes.up.length_squared() == 0.0 {
-            return Err(Error::new(
-                ErrorKind::BadInput,
-                format!("up is {}: give a direction of finite length above 0", self.axes.up),
-            ));
+        let bad = |message: String| Error::new(ErrorKind::BadInput, message);
+        let Axes { up, forward, .. } = self.axes;
+        if !up.is_finite() || up.length_squared() == 0.0 {
+            return Err(bad(format!("up is {up}: give a direction of finite length above 0")));
         }
-        if let Some(forward) = self.axes.forward {
-            let across = forward.reject_from(self.axes.up);
+        if let Some(forward) = forward {
+            let across = forward.reject_from(up);
             if !forward.is_finite() || across.length_squared() <= 1e-6 * forward.length_squared() {
-                return Err(Error::new(
-                    ErrorKind::BadInput,
-                    format!("forward is {forward}: give a direction at an angle to up ({})", self.axes.up),
-                ));
+                return Err(bad(format!("forward is {forward}: give a direction at an angle to up ({up})")));
             }
         }
         self.face_hints.validate()?;
         self.skeleton.validate()?;
-        for (role, joint) in self.humanoid.iter() {
-            if joint >= self.skeleton.joints.len() {
-                return Err(Error::new(
-                    ErrorKind::BadInput,
-                    format!(
-                        "role {} names joint {joint}, but there are {} joints: name one of them",
-                        role.name(),
-                        self.skeleton.joints.len()
-                    ),
-                )
-                .at(Element::Joint(joint)));
-            }
+        let joint_count = self.skeleton.joints.len();
+        if let Some((role, joint)) = self.humanoid.iter().find(|&(_, joint)| joint >= joint_count) {
+            let message = format!(
+                "role {role} names joint {joint}, but there are {joint_count} joints: name one of them"
+            );
+            return Err(bad(message).at(Element::Joint(joint)));
         }
         for (index, mesh) in self.meshes.iter().enumerate() {
-            mesh.validate(index, self.skeleton.joints.len())?;
+            mesh.validate(index, joint_count)?;
         }
         Ok(())
     }

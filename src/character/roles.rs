@@ -1,6 +1,7 @@
 //! Humanoid roles of a skeleton for which no file tells them: by joint names first, by the shape of the joint
 //! tree where names do not tell.
 
+use super::humanoid::REQUIRED_ROLES;
 use super::naming::{is_helper, roles_from_names};
 use super::tree_roles::roles_from_tree;
 use super::{Humanoid, Mesh, Role, Skeleton};
@@ -8,15 +9,9 @@ use crate::error::{Named, Warning};
 use Role::*;
 use glam::{DVec3, Vec3};
 
-/// Roles that the geometry may add to those found by names. The column is completed from the tree instead, and
-/// fingers are never guessed beside named joints.
-const FILLED: [Role; 17] = [
-    Hips,
-    Head,
-    LeftUpperLeg,
-    RightUpperLeg,
-    LeftUpperArm,
-    RightUpperArm,
+/// Roles that the geometry may add to those found by names, beside the required ones. The column is completed from the tree
+/// instead, and fingers are never guessed beside named joints.
+const FILLED_TOO: [Role; 11] = [
     LeftLowerLeg,
     RightLowerLeg,
     LeftLowerArm,
@@ -50,19 +45,19 @@ pub fn find_roles(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> (Humanoid, 
     let mut humanoid = roles_from_names(skeleton);
     complete(&mut humanoid, skeleton);
     drop_misplaced(&mut humanoid, skeleton, up.as_dvec3());
-    let open = |humanoid: &Humanoid| FILLED.iter().any(|&role| !humanoid.has(role));
-    if !open(&humanoid) {
+    let filled_roles = REQUIRED_ROLES.into_iter().chain(FILLED_TOO);
+    if filled_roles.clone().all(|role| humanoid.has(role)) {
         return (humanoid, Vec::new());
     }
     let mut found = roles_from_tree(skeleton, meshes, up);
     complete(&mut found, skeleton);
     drop_misplaced(&mut found, skeleton, up.as_dvec3());
-    let mut by_geometry = Vec::new();
-    let mut filled = humanoid.clone();
     if sides_differ(&humanoid, &found) {
         found = mirrored(&found);
     }
-    for role in FILLED {
+    let mut by_geometry = Vec::new();
+    let mut filled = humanoid;
+    for role in filled_roles {
         if let Some(joint) = found.joint(role)
             && fits(&filled, skeleton, role, joint)
         {
@@ -75,24 +70,17 @@ pub fn find_roles(skeleton: &Skeleton, meshes: &[Mesh], up: Vec3) -> (Humanoid, 
         filled = found;
         by_geometry = filled.iter().map(|(role, _)| role).collect();
     }
-    let mut warnings = Vec::new();
-    if !by_geometry.is_empty() {
-        let list: Vec<String> = by_geometry
-            .iter()
-            .filter_map(|&role| {
-                let joint = filled.joint(role)?;
-                Some(format!("{role} ({})", Named(&skeleton.joints[joint].name)))
-            })
-            .collect();
-        warnings.push(Warning::new(
-            "roles_from_geometry",
-            format!(
-                "joint names do not tell these roles, which were found from the shape of the skeleton: {}",
-                list.join(", ")
-            ),
-        ));
+    if by_geometry.is_empty() {
+        return (filled, Vec::new());
     }
-    (filled, warnings)
+    let played = by_geometry.iter().filter_map(|&role| filled.joint(role).map(|joint| (role, joint)));
+    let list: Vec<String> =
+        played.map(|(role, joint)| format!("{role} ({})", Named(&skeleton.joints[joint].name))).collect();
+    let message = format!(
+        "joint names do not tell these roles, which were found from the shape of the skeleton: {}",
+        list.join(", ")
+    );
+    (filled, vec![Warning::new("roles_from_geometry", message)])
 }
 
 /// Completes a map that is given in part.
@@ -111,14 +99,16 @@ pub fn complete(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     }
     drop_repeated(humanoid, skeleton.joints.len());
     complete_hips(humanoid, skeleton);
+    // The new hips play no other role.
+    drop_repeated(humanoid, skeleton.joints.len());
     complete_column(humanoid, skeleton);
     drop_repeated(humanoid, skeleton.joints.len());
 }
 
 fn drop_repeated(humanoid: &mut Humanoid, joint_count: usize) {
     let mut taken = vec![false; joint_count];
-    let required = super::humanoid::REQUIRED_ROLES.into_iter();
-    for role in required.clone().chain(Role::all().filter(|role| !required.clone().any(|r| r == *role))) {
+    let others = Role::all().filter(|role| !REQUIRED_ROLES.contains(role));
+    for role in REQUIRED_ROLES.into_iter().chain(others) {
         if let Some(joint) = humanoid.joint(role) {
             if joint >= joint_count || taken[joint] {
                 humanoid.set(role, None);
@@ -172,12 +162,6 @@ fn complete_hips(humanoid: &mut Humanoid, skeleton: &Skeleton) {
             .min_by(|&a, &b| far(a).total_cmp(&far(b)));
         humanoid.set(Hips, lowest.or(ancestor));
     }
-    let hips = humanoid.joint(Hips);
-    for role in Role::all().filter(|&role| role != Hips) {
-        if hips.is_some() && humanoid.joint(role) == hips {
-            humanoid.set(role, None);
-        }
-    }
 }
 
 fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
@@ -186,11 +170,8 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     else {
         return;
     };
-    let arms = [humanoid.joint(LeftUpperArm), humanoid.joint(RightUpperArm)];
-    let arms_at = match arms {
-        [Some(left), Some(right)] => skeleton.lowest_common_ancestor(left, right),
-        _ => None,
-    };
+    let arms = humanoid.joint(LeftUpperArm).zip(humanoid.joint(RightUpperArm));
+    let arms_at = arms.and_then(|(left, right)| skeleton.lowest_common_ancestor(left, right));
     let foot_of_column = skeleton.lowest_common_ancestor(hips, head);
     let mut path: Vec<usize> = skeleton
         .ancestors(head)
@@ -216,29 +197,21 @@ fn complete_column(humanoid: &mut Humanoid, skeleton: &Skeleton) {
     }
     let playing: Vec<usize> = humanoid.iter().map(|(_, joint)| joint).collect();
     path.retain(|joint| !playing.contains(joint));
-    match path[..] {
-        [] => {}
-        [spine] => humanoid.set(Spine, spine),
-        [spine, chest] => {
-            humanoid.set(Spine, spine);
-            humanoid.set(Chest, chest);
-        }
-        [spine, ref middle @ .., upper] => {
-            let halfway = (position(spine) + position(upper)) / 2.0;
-            let far = |joint: &usize| position(*joint).distance_squared(halfway);
-            let chest = middle.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)));
-            humanoid.set(Spine, spine);
-            humanoid.set(Chest, chest);
-            humanoid.set(UpperChest, upper);
-        }
+    // Of more than three the first, the last and the one nearest to the middle.
+    if let [spine, middle @ .., upper] = &path[..] {
+        let halfway = (position(*spine) + position(*upper)) / 2.0;
+        let far = |joint: &usize| position(*joint).distance_squared(halfway);
+        let chest = middle.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        path = [spine].into_iter().chain(chest).chain([upper]).copied().collect();
+    }
+    for (role, joint) in [Spine, Chest, UpperChest].into_iter().zip(path) {
+        humanoid.set(role, joint);
     }
 }
 
 /// Takes roles from joints that cannot play them where they are: shins above thighs, a head below the hips.
 fn drop_misplaced(humanoid: &mut Humanoid, skeleton: &Skeleton, up: DVec3) {
-    let at = |humanoid: &Humanoid, role: Role| {
-        humanoid.joint(role).map(|joint| skeleton.joints[joint].position().dot(up))
-    };
+    let at = |role: Role| humanoid.joint(role).map(|joint| skeleton.joints[joint].position().dot(up));
     let order = [
         (Head, Hips),
         (LeftUpperLeg, LeftLowerLeg),
@@ -246,11 +219,8 @@ fn drop_misplaced(humanoid: &mut Humanoid, skeleton: &Skeleton, up: DVec3) {
         (LeftUpperLeg, LeftFoot),
         (RightUpperLeg, RightFoot),
     ];
-    let turned = |(high, low): &(Role, Role)| match (at(humanoid, *high), at(humanoid, *low)) {
-        (Some(high), Some(low)) => high < low,
-        _ => false,
-    };
-    let misplaced: Vec<(Role, Role)> = order.iter().copied().filter(turned).collect();
+    let is_turned = |&(high, low): &(Role, Role)| at(high).zip(at(low)).is_some_and(|(high, low)| high < low);
+    let misplaced: Vec<(Role, Role)> = order.into_iter().filter(is_turned).collect();
     // A character that lies down or stands on its head is a matter of axes, not of names.
     if misplaced.len() > 2 {
         return;
@@ -272,9 +242,7 @@ fn sides_differ(named: &Humanoid, found: &Humanoid) -> bool {
 
 fn mirrored(humanoid: &Humanoid) -> Humanoid {
     let mut other = Humanoid::default();
-    for (role, joint) in humanoid.iter() {
-        other.set(role.mirrored(), joint);
-    }
+    humanoid.iter().for_each(|(role, joint)| other.set(role.mirrored(), joint));
     other
 }
 

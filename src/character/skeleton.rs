@@ -39,29 +39,21 @@ impl Skeleton {
     /// `ErrorKind::BadInput` names the joint.
     pub fn validate(&self) -> Result<()> {
         let count = self.joints.len();
-        let bad = |joint: usize, message: String| {
-            Err(Error::new(
-                ErrorKind::BadInput,
-                format!("joint {joint} ({}): {message}", Named(&self.joints[joint].name)),
-            )
-            .at(Element::Joint(joint)))
+        let bad = |joint: usize, message: &str| {
+            let message = format!("joint {joint} ({}): {message}", Named(&self.joints[joint].name));
+            Err(Error::new(ErrorKind::BadInput, message).at(Element::Joint(joint)))
         };
         for (index, joint) in self.joints.iter().enumerate() {
             if let Some(parent) = joint.parent
                 && parent >= count
             {
-                return bad(
-                    index,
-                    format!(
-                        "its parent is joint {parent}, but there are {count} joints: name one of them, or none"
-                    ),
+                let message = format!(
+                    "its parent is joint {parent}, but there are {count} joints: name one of them, or none"
                 );
+                return bad(index, &message);
             }
             if !joint.rest.is_finite() {
-                return bad(
-                    index,
-                    "its rest matrix holds a number that is not finite: give finite numbers".to_string(),
-                );
+                return bad(index, "its rest matrix holds a number that is not finite: give finite numbers");
             }
             let last = joint.rest.row(3);
             let most =
@@ -69,19 +61,17 @@ impl Skeleton {
             if last.truncate().abs().max_element() > LEAST_NUMBER * most
                 || (last.w - 1.0).abs() > LEAST_NUMBER
             {
-                return bad(
-                    index,
-                    format!(
-                        "numbers 3, 7, 11 and 15 of its rest matrix are {}, {}, {} and {}, not 0, 0, 0 and 1: give it column by column, with the translation in 12, 13 and 14",
-                        last.x, last.y, last.z, last.w
-                    ),
+                let message = format!(
+                    "numbers 3, 7, 11 and 15 of its rest matrix are {}, {}, {} and {}, not 0, 0, 0 and 1: give it column by column, with the translation in 12, 13 and 14",
+                    last.x, last.y, last.z, last.w
                 );
+                return bad(index, &message);
             }
         }
         // No way leads from a root to what is in a circle, or hangs from one.
         let reached = marked(count, self.parents_first());
         if let Some(joint) = reached.iter().position(|&is_reached| !is_reached) {
-            return bad(joint, "its parents run in a circle: one of them must have none".to_string());
+            return bad(joint, "its parents run in a circle: one of them must have none");
         }
         Ok(())
     }

@@ -1,5 +1,8 @@
 //! Skin weights w_ki (§IV-B): for each vertex the joints that move it, w >= 0, sum 1; any number a vertex.
 
+use super::mesh::Fault;
+use crate::error::Element;
+
 /// Sparse rows of (joint, weight), one row a vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weights {
@@ -83,42 +86,28 @@ impl Weights {
         (0..self.row_count()).map(|vertex| self.row(vertex))
     }
 
-    /// Checks rows against the numbers of vertices and joints; the error is the vertex and a sentence.
-    pub(crate) fn validate(
-        &self,
-        vertex_count: usize,
-        joint_count: usize,
-    ) -> Result<(), (Option<usize>, String)> {
-        if self.is_empty() {
-            return Ok(());
-        }
-        if self.row_count() != vertex_count {
-            return Err((
-                None,
-                format!(
-                    "{} rows of weights for {vertex_count} vertices: give one a vertex",
-                    self.row_count()
-                ),
-            ));
+    /// Checks rows against the numbers of vertices and joints.
+    pub(crate) fn check(&self, vertex_count: usize, joint_count: usize) -> Result<(), Fault> {
+        let row_count = self.row_count();
+        if !self.is_empty() && row_count != vertex_count {
+            let message =
+                format!("{row_count} rows of weights for {vertex_count} vertices: give one a vertex");
+            return Err((None, message));
         }
         for (vertex, row) in self.rows().enumerate() {
             for &(joint, weight) in row {
-                if joint as usize >= joint_count {
-                    return Err((
-                        Some(vertex),
-                        format!(
-                            "vertex {vertex} is weighted to joint {joint}, but there are {joint_count} joints: name one of them"
-                        ),
-                    ));
-                }
-                if !weight.is_finite() || weight < 0.0 {
-                    return Err((
-                        Some(vertex),
-                        format!(
-                            "vertex {vertex} has weight {weight} for joint {joint}: weights must be 0 or more"
-                        ),
-                    ));
-                }
+                let message = if joint as usize >= joint_count {
+                    format!(
+                        "vertex {vertex} is weighted to joint {joint}, but there are {joint_count} joints: name one of them"
+                    )
+                } else if !weight.is_finite() || weight < 0.0 {
+                    format!(
+                        "vertex {vertex} has weight {weight} for joint {joint}: weights must be 0 or more"
+                    )
+                } else {
+                    continue;
+                };
+                return Err((Some(Element::Vertex(vertex)), message));
             }
         }
         Ok(())

@@ -12,15 +12,6 @@ pub struct CellHasher {
     state: u64,
 }
 
-impl CellHasher {
-    fn add(&mut self, word: u64) {
-        // The high half of a product depends on all bits below it; keys may be floats whose low bits are all 0.
-        let product = u128::from(self.state.rotate_left(23) ^ word)
-            .wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
-        self.state = (product >> 64) as u64 ^ product as u64;
-    }
-}
-
 impl Hasher for CellHasher {
     fn finish(&self) -> u64 {
         self.state
@@ -30,15 +21,10 @@ impl Hasher for CellHasher {
         for chunk in bytes.chunks(8) {
             let mut word = [0; 8];
             word[..chunk.len()].copy_from_slice(chunk);
-            self.add(u64::from_le_bytes(word));
+            // The high half of a product depends on all bits below it; keys may be floats whose low bits are all 0.
+            let product = u128::from(self.state.rotate_left(23) ^ u64::from_le_bytes(word))
+                .wrapping_mul(0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835);
+            self.state = (product >> 64) as u64 ^ product as u64;
         }
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        self.add(word);
-    }
-
-    fn write_usize(&mut self, word: usize) {
-        self.add(word as u64);
     }
 }

@@ -158,12 +158,11 @@ pub fn slices(
     heights: &[f64],
 ) -> Vec<Vec<Outline>> {
     let mut cuts: Vec<Cut> = heights.iter().map(|_| Cut::default()).collect();
-    let steps = Steps::new(heights);
     for &corners in triangles {
         let [a, b, c] = corners.map(|vertex| planes.height(positions[vertex as usize]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         // A corner counts as above a plane where it is higher than it: so a plane is met from `low` on, below `high`.
-        let first = steps.below(low);
+        let first = heights.partition_point(|&height| height < low);
         if heights.get(first).is_none_or(|&height| height >= high) {
             continue;
         }
@@ -177,35 +176,6 @@ pub fn slices(
         }
     }
     cuts.into_iter().map(Cut::outlines).collect()
-}
-
-/// Heights that rise, most often by even steps, which tell where to look for one.
-struct Steps<'a> {
-    heights: &'a [f64],
-    /// How many steps there are in one unit.
-    per_unit: f64,
-}
-
-impl<'a> Steps<'a> {
-    fn new(heights: &'a [f64]) -> Self {
-        let ends = heights.first().zip(heights.last());
-        let per_unit = ends.map_or(0.0, |(first, last)| (heights.len() - 1) as f64 / (last - first));
-        Self { heights, per_unit: if per_unit.is_finite() { per_unit } else { 0.0 } }
-    }
-
-    /// How many heights lie below `height`.
-    fn below(&self, height: f64) -> usize {
-        let Some(&lowest) = self.heights.first() else { return 0 };
-        // As a number that is none stands for 0, and what is too large for the last one.
-        let mut count = (((height - lowest) * self.per_unit) as usize).min(self.heights.len());
-        while count > 0 && self.heights[count - 1] >= height {
-            count -= 1;
-        }
-        while count < self.heights.len() && self.heights[count] < height {
-            count += 1;
-        }
-        count
-    }
 }
 
 /// One cut in the making.

@@ -14,12 +14,12 @@ pub use tree::Tree;
 
 use super::bounds;
 use glam::{BVec4A, DVec3, Vec3A, Vec4};
+use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
-use obvhs::{Boundable, BvhBuildParams};
 use wide::{Child, LANES, Node, Slopes};
 
 /// Padding of the boxes, in units of the scene's largest extent: above the rounding of single precision. Seen: ±30 %
@@ -76,16 +76,8 @@ pub struct Surface {
     scale: f64,
 }
 
-struct Box32(Aabb);
-
-impl Boundable for Box32 {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
-}
-
 /// The tree of boxes: the steps of obvhs' `build_bvh2`, which also looks at a clock that not every system has.
-fn tree_over(boxes: &[Box32], how: &BvhBuildParams) -> Bvh2 {
+fn tree_over(boxes: &[Aabb], how: &BvhBuildParams) -> Bvh2 {
     let (count, depth) = (boxes.len(), how.search_depth_threshold);
     let order = (0..count as u32).collect();
     let mut builder = PlocBuilder::with_capacity(count);
@@ -125,7 +117,7 @@ impl Surface {
         for (triangle, corners) in triangles.iter().enumerate() {
             let corners = corners.map(|vertex| (positions[vertex as usize] - centre) * scale);
             if has_area(&corners) {
-                boxes.push(Box32(padded_box(&corners)));
+                boxes.push(padded_box(&corners));
                 kept.push((triangle as u32, corners));
             }
         }

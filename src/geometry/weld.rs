@@ -91,15 +91,11 @@ pub fn weld(positions: &[DVec3], tolerance: f64) -> Weld {
                 }
             }
         }
-        let welded = best.map_or_else(
-            || {
-                let welded = first.len() as u32;
-                first.push(p);
-                next_in_cell.push(cells.insert(cell_of(p), welded));
-                welded
-            },
-            |(_, welded)| welded,
-        );
+        let welded = best.map_or(first.len() as u32, |(_, welded)| welded);
+        if best.is_none() {
+            first.push(p);
+            next_in_cell.push(cells.insert(cell_of(p), welded));
+        }
         representative.push(welded);
     }
     Weld { representative, count: first.len() }
@@ -120,12 +116,8 @@ pub fn components(triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
     let mut components = vec![0; weld.count];
     for vertex in 0..weld.count {
         let least = groups.least(vertex);
-        components[vertex] = if least == vertex {
-            component_count += 1;
-            component_count - 1
-        } else {
-            components[least]
-        };
+        components[vertex] = if least == vertex { component_count } else { components[least] };
+        component_count += u32::from(least == vertex);
     }
     components
 }

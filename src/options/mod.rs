@@ -193,6 +193,11 @@ impl GroupSettings {
             ("thickness_transfer", self.thickness_transfer),
         ]
     }
+
+    /// Checks every number against its range, for the bone group `group`.
+    pub(crate) fn check(&self, group: &str) -> Result<()> {
+        check_all(self.numbers(), |option, value| option.check_in_group(group, value))
+    }
 }
 
 macro_rules! options {
@@ -315,16 +320,10 @@ impl Options {
     /// # Errors
     /// `ErrorKind::BadOption` names the option, its value and its range.
     pub fn validate(&self) -> Result<()> {
-        check_all(&self.numbers())?;
+        check_all(self.numbers(), OptionInfo::check)?;
         self.height.check()?;
-        for (group, settings) in &self.groups {
-            for (name, value) in settings.numbers() {
-                if let Some(value) = value {
-                    option(name).check_in_group(group, value)?;
-                }
-            }
-        }
-        Ok(())
+        let mut groups = self.groups.iter();
+        groups.try_for_each(|(group, settings)| settings.check(group))
     }
 }
 
@@ -379,7 +378,7 @@ impl RigOptions {
     /// # Errors
     /// `ErrorKind::BadOption` names the option, its value and its range.
     pub fn validate(&self) -> Result<()> {
-        check_all(&self.numbers())?;
+        check_all(self.numbers(), OptionInfo::check)?;
         if let Some((role, at)) = self.given.iter().find(|(_, at)| !at.is_finite()) {
             let message = format!("the given joint {role} is at {at}: positions must be finite numbers");
             return Err(Error::new(ErrorKind::BadOption, message).about("rig_joints"));
@@ -388,13 +387,13 @@ impl RigOptions {
     }
 }
 
-fn check_all(numbers: &[(&'static str, Option<f64>)]) -> Result<()> {
-    for &(name, value) in numbers {
-        if let Some(value) = value {
-            option(name).check(value)?;
-        }
-    }
-    Ok(())
+/// Has `check` check those of `numbers` that are set.
+fn check_all(
+    numbers: impl IntoIterator<Item = (&'static str, Option<f64>)>,
+    check: impl Fn(&OptionInfo, f64) -> Result<()>,
+) -> Result<()> {
+    let mut set = numbers.into_iter().filter_map(|(name, value)| Some((option(name), value?)));
+    set.try_for_each(|(option, value)| check(option, value))
 }
 
 #[cfg(test)]

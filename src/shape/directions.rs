@@ -10,7 +10,7 @@
 
 use super::turn::{Four, LANES, Turn, Turns, columns_of, cross, dot, four_at, root, transposed};
 use crate::geometry::weld::Weld;
-use crate::geometry::{Rows, bounds, by_number};
+use crate::geometry::{CellMap, Rows, bounds, by_number};
 use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
 use std::ops::Range;
 
@@ -72,7 +72,7 @@ struct Corner {
 }
 
 /// Four triangles that have an area; the last ones of a batch may have none.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Group {
     /// Of each of the three corners, which of the batch's it is.
     corners: [[u16; LANES]; 3],
@@ -81,10 +81,6 @@ struct Group {
     rows: [[Vec4; 3]; 3],
     /// Twice the triangles', 0 for none.
     areas: Vec4,
-}
-
-impl Group {
-    const NONE: Self = Self { corners: [[0; LANES]; 3], rows: [[Vec4::ZERO; 3]; 3], areas: Vec4::ZERO };
 }
 
 /// Four triangles after: edges from the first corner, their cross product, and what makes a normal of it that is as long as the
@@ -172,10 +168,21 @@ impl RestTriangles {
             let longest = a.length_squared().max(b.length_squared()).max((b - a).length_squared());
             a.cross(b).length() > LEAST_AREA * longest
         };
-        let triangles: Vec<[u32; 3]> = triangles.iter().copied().filter(has_area).collect();
+        let mut triangles: Vec<[u32; 3]> = triangles.iter().copied().filter(has_area).collect();
         let total: f64 = triangles.iter().map(|&corners| edges(positions, corners).0.length()).sum();
         let scale = 2f64.powi((triangles.len() as f64 / total).log2().round() as i32);
-        let around = Around::of(&triangles, weld);
+        // Of triangles at one place (copies, both faces of a sheet) the first stands for all: with each in every piece that has
+        // one, copies would take memory by the square of their number.
+        let mut places = CellMap::with_capacity_and_hasher(triangles.len(), Default::default());
+        triangles.retain(move |&corners| {
+            let mut place = weld.triangle(corners);
+            place.sort_unstable();
+            places.insert(place, ()).is_none()
+        });
+        let corners = (0u32..).zip(&triangles);
+        let corners =
+            corners.flat_map(|(index, &corners)| weld.triangle(corners).map(|corner| (corner, index)));
+        let around = by_number(weld.count, corners);
         let slots = vec![NO_SLOT; positions.len()];
         let mut rest = Self { slots, scale: scale as f32, ..Self::default() };
         let (low, high) = bounds(positions.iter().map(|p| p.as_dvec3()));
@@ -183,7 +190,7 @@ impl RestTriangles {
             positions,
             middle: (low + high) / 2.0,
             triangles: &triangles,
-            firsts: around.firsts(&triangles, weld),
+            around,
             seen: vec![u32::MAX; triangles.len()],
             scale,
             weld,
@@ -193,7 +200,7 @@ impl RestTriangles {
         for mesh in mesh_starts.windows(2) {
             let first_piece = rest.pieces.len();
             for first in (mesh[0]..mesh[1]).step_by(PIECE) {
-                builder.add(first..(first + PIECE).min(mesh[1]), &around, &mut rest);
+                builder.add(first..(first + PIECE).min(mesh[1]), &mut rest);
             }
             rest.mesh_pieces.push(first_piece..rest.pieces.len());
         }
@@ -298,50 +305,13 @@ fn edges(points: &[Vec3], [a, b, c]: [u32; 3]) -> (DVec3, DVec3) {
     (b - a, c - a)
 }
 
-/// The triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
-struct Around(Rows<u32>);
-
-impl Around {
-    fn of(triangles: &[[u32; 3]], weld: &Weld) -> Self {
-        let corners = (0u32..).zip(triangles);
-        let corners =
-            corners.flat_map(|(index, &corners)| weld.triangle(corners).map(|corner| (corner, index)));
-        Self(by_number(weld.count, corners))
-    }
-
-    fn of_vertex(&self, welded: u32) -> &[u32] {
-        self.0.of(welded as usize)
-    }
-
-    /// For each of the same triangles the first one between the same three welded vertices.
-    fn firsts(&self, triangles: &[[u32; 3]], weld: &Weld) -> Vec<u32> {
-        let mut firsts: Vec<u32> = (0..triangles.len() as u32).collect();
-        let mut of_least = Vec::new();
-        for least in 0..weld.count as u32 {
-            of_least.clear();
-            of_least.extend(self.of_vertex(least).iter().filter_map(|&triangle| {
-                let mut corners = weld.triangle(triangles[triangle as usize]);
-                corners.sort_unstable();
-                (corners[0] == least).then_some((corners[1], corners[2], triangle))
-            }));
-            of_least.sort_unstable();
-            for alike in of_least.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-                for &(.., triangle) in alike {
-                    firsts[triangle as usize] = alike[0].2;
-                }
-            }
-        }
-        firsts
-    }
-}
-
 /// What pieces are made of.
 struct Builder<'a> {
     positions: &'a [Vec3],
     middle: DVec3,
     triangles: &'a [[u32; 3]],
-    /// By triangle, the first one at its place.
-    firsts: Vec<u32>,
+    /// The triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
+    around: Rows<u32>,
     /// By triangle, the last piece that has it.
     seen: Vec<u32>,
     scale: f64,
@@ -352,22 +322,19 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn add(&mut self, vertices: Range<usize>, around: &Around, rest: &mut RestTriangles) {
+    fn add(&mut self, vertices: Range<usize>, rest: &mut RestTriangles) {
         let mut count = 0;
         let piece = rest.pieces.len() as u32;
         let mut triangles = Vec::new();
         for vertex in vertices.clone() {
-            let welded = self.weld.representative[vertex];
-            let slot = &mut self.slots[welded as usize];
+            let welded = self.weld.representative[vertex] as usize;
+            let slot = &mut self.slots[welded];
             if *slot == NO_SLOT {
                 *slot = count;
                 count += 1;
-                for &triangle in around.of_vertex(welded) {
-                    // Of triangles at one place (copies, both faces of a sheet) the first stands for all: with each in every
-                    // piece that has one, copies would take memory by the square of their number.
-                    let first = self.firsts[triangle as usize];
-                    if std::mem::replace(&mut self.seen[first as usize], piece) != piece {
-                        triangles.push(first);
+                for &triangle in self.around.of(welded) {
+                    if std::mem::replace(&mut self.seen[triangle as usize], piece) != piece {
+                        triangles.push(triangle);
                     }
                 }
             }
@@ -383,7 +350,7 @@ impl Builder<'_> {
 
     fn batch(&mut self, triangles: &[u32]) -> Batch {
         let mut corners = Vec::new();
-        let mut groups = vec![Group::NONE; triangles.len().div_ceil(LANES)];
+        let mut groups = vec![Group::default(); triangles.len().div_ceil(LANES)];
         // Slots and the triangles around them, as one number each, which is sorted faster than two.
         let mut around: Vec<u32> = Vec::with_capacity(3 * triangles.len());
         for (number, &triangle) in triangles.iter().enumerate() {

@@ -169,7 +169,18 @@ impl Field {
     pub fn place_from(&self, p: DVec3, placed: DVec3, binding: &Binding, vertex: Option<usize>) -> DVec3 {
         let squashed = self.squash(Mapped::unmoved(placed), binding).position;
         let to = match binding {
-            Binding::Parts(binding) => self.place_head(squashed, binding, vertex),
+            Binding::Parts(binding) => {
+                let to = match &self.young {
+                    Some(young) if binding.face != FaceBinding::None => {
+                        young.place(squashed, binding.face, self.youth, vertex)
+                    }
+                    _ => squashed,
+                };
+                match &self.seat {
+                    Some(seat) => seat.place(to, self.seat_amount * binding.of_head_and_neck()),
+                    None => to,
+                }
+            }
             Binding::Bones(_) => squashed,
             Binding::Fixed => return p,
         };
@@ -202,21 +213,6 @@ impl Field {
         }
         let (share, middle) = binding.of_face();
         self.finish.face.apply(to, share, middle.map(|middle| self.place_body(middle, binding)))
-    }
-
-    /// Where the rows after it take a point: the younger face, then the seat.
-    #[inline(always)]
-    fn place_head(&self, to: DVec3, binding: &PartBinding, vertex: Option<usize>) -> DVec3 {
-        let to = match &self.young {
-            Some(young) if binding.face != FaceBinding::None => {
-                young.place(to, binding.face, self.youth, vertex)
-            }
-            _ => to,
-        };
-        match &self.seat {
-            Some(seat) => seat.place(to, self.seat_amount * binding.of_head_and_neck()),
-            None => to,
-        }
     }
 
     /// Where `p` goes, and the Jacobian there at fixed weights.

@@ -1,6 +1,6 @@
 //! Bone groups (§IV-A, §V-B3): what is measured of one, and how much it shrinks.
 
-use super::BodyShape;
+use super::{BodyShape, BoneShape};
 use crate::character::Role;
 use crate::character::bones::bones;
 use crate::geometry::mean;
@@ -34,18 +34,15 @@ pub fn group_shapes(
     options: &Options,
 ) -> BTreeMap<String, GroupShape> {
     let shape = shape.restricted_to(roles);
-    let common: BTreeSet<Role> = shape.roles();
-    let mut radii: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    let mut groups: BTreeMap<String, GroupShape> = BTreeMap::new();
-    for bone in bones(&common, &options.bone_groups) {
-        let Some(measured) = shape.bones.get(bone.key()) else {
-            continue;
-        };
-        groups.entry(bone.group.clone()).or_default().length += measured.length;
-        radii.entry(bone.group).or_default().extend(measured.radius);
+    let mut groups: BTreeMap<String, Vec<BoneShape>> = BTreeMap::new();
+    for bone in bones(&shape.roles(), &options.bone_groups) {
+        if let Some(&measured) = shape.bones.get(bone.key()) {
+            groups.entry(bone.group).or_default().push(measured);
+        }
     }
-    for (name, group) in &mut groups {
-        group.radius = mean(radii[name].iter().copied());
-    }
-    groups
+    let of_group = |bones: Vec<BoneShape>| GroupShape {
+        length: bones.iter().fold(0.0, |sum, bone| sum + bone.length),
+        radius: mean(bones.iter().filter_map(|bone| bone.radius)),
+    };
+    groups.into_iter().map(|(name, bones)| (name, of_group(bones))).collect()
 }

@@ -103,23 +103,16 @@ fn ring(along: DVec3, rays: usize) -> Option<Vec<DVec3>> {
     let start = axis.cross(along).normalize();
     let side = along.cross(start);
     let turn = TAU / rays as f64;
-    Some(
-        (0..rays)
-            .map(|ray| (turn * ray as f64).sin_cos())
-            .map(|(sin, cos)| cos * start + sin * side)
-            .collect(),
-    )
+    let angles = (0..rays).map(|ray| (turn * ray as f64).sin_cos());
+    Some(angles.map(|(sin, cos)| cos * start + sin * side).collect())
 }
 
 /// The number of hits around `point`, and their mean distance to their centroid.
 fn sample(surface: &Surface, point: DVec3, ring: &[DVec3]) -> (usize, Option<f64>) {
-    let hits: Vec<DVec3> = ring
-        .iter()
-        .filter_map(|&direction| {
-            let hit = surface.first_hit(point, direction, f64::INFINITY)?;
-            Some(point + hit.t * direction)
-        })
-        .collect();
+    let met = |&direction: &DVec3| {
+        surface.first_hit(point, direction, f64::INFINITY).map(|hit| point + hit.t * direction)
+    };
+    let hits: Vec<DVec3> = ring.iter().filter_map(met).collect();
     let count = hits.len() as f64;
     let centroid = hits.iter().sum::<DVec3>() / count;
     let mean = hits.iter().map(|hit| hit.distance(centroid)).sum::<f64>() / count;

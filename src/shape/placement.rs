@@ -188,7 +188,8 @@ impl<'a> Placement<'a> {
 
     /// Where a point `p` goes that moves with `vertex`; canonical frame.
     pub fn beside(&self, vertex: usize, p: DVec3) -> DVec3 {
-        self.with_offset(vertex, self.field.place(p, &self.bindings.vertices[vertex]))
+        let to = self.field.place(p, &self.bindings.vertices[vertex]);
+        self.with_offset(self.offsets, vertex, to)
     }
 
     /// Where `vertex` goes, canonical frame.
@@ -198,11 +199,12 @@ impl<'a> Placement<'a> {
             Some(placed) => self.field.place_from(p, placed[vertex], binding, Some(vertex)),
             None => self.field.place(p, binding),
         };
-        self.with_offset(vertex, to)
+        self.with_offset(self.offsets, vertex, to)
     }
 
-    fn with_offset(&self, vertex: usize, to: DVec3) -> DVec3 {
-        match self.offsets.get(vertex) {
+    /// `to` with that one of `offsets` whose number is `index`, where there are any.
+    fn with_offset(&self, offsets: &[DVec3], index: usize, to: DVec3) -> DVec3 {
+        match offsets.get(index) {
             Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
             None => to,
         }
@@ -210,31 +212,27 @@ impl<'a> Placement<'a> {
 
     /// Where the body of the field alone takes every vertex, canonical frame.
     pub fn all_placed(&self) -> Vec<DVec3> {
-        let place =
-            |vertex| self.field.place_body(self.figure.positions[vertex], &self.bindings.vertices[vertex]);
-        parallel::collect(self.threads, self.figure.positions.len(), parallel::FEW, place)
+        let (positions, bindings) = (&self.figure.positions, &self.bindings.vertices);
+        self.collect(positions.len(), |vertex| self.field.place_body(positions[vertex], &bindings[vertex]))
     }
 
     /// Where every vertex goes, canonical frame.
     pub fn all_vertices(&self) -> Vec<DVec3> {
-        parallel::collect(self.threads, self.figure.positions.len(), parallel::FEW, |vertex| {
-            self.vertex(vertex)
-        })
+        self.collect(self.figure.positions.len(), |vertex| self.vertex(vertex))
     }
 
     /// As [`Self::all_vertices`], of these.
     pub fn vertices(&self, vertices: &[u32]) -> Vec<DVec3> {
-        parallel::collect(self.threads, vertices.len(), parallel::FEW, |index| {
-            self.vertex(vertices[index] as usize)
-        })
+        self.collect(vertices.len(), |index| self.vertex(vertices[index] as usize))
+    }
+
+    fn collect(&self, count: usize, place: impl Fn(usize) -> DVec3 + Sync) -> Vec<DVec3> {
+        parallel::collect(self.threads, count, parallel::FEW, place)
     }
 
     /// Where `joint` goes, canonical frame.
     pub fn joint(&self, joint: usize) -> DVec3 {
         let to = self.field.place(self.figure.joints[joint], &self.bindings.joints[joint]);
-        match self.joint_offsets.get(joint) {
-            Some(&offset) => to + self.field.finish.share_of_offsets() * offset,
-            None => to,
-        }
+        self.with_offset(self.joint_offsets, joint, to)
     }
 }

@@ -185,26 +185,22 @@ impl BodyShape {
 
     /// The same body with everything below the head made longer or shorter, so that it is `heads` heads tall.
     pub fn with_heads(&self, heads: f64) -> Self {
-        let Some(proportions) = &self.proportions else {
-            return self.clone();
-        };
-        let stretch = (heads - 1.0) / (proportions.heads() - 1.0);
         let mut shape = self.clone();
+        let Some(proportions) = &mut shape.proportions else { return shape };
+        let stretch = (heads - 1.0) / (proportions.heads() - 1.0);
+        for length in [
+            &mut proportions.neck,
+            &mut proportions.torso,
+            &mut proportions.arm,
+            &mut proportions.leg,
+            &mut proportions.ankle_height,
+        ] {
+            *length *= stretch;
+        }
         shape.landmarks = None;
         for (name, bone) in &mut shape.bones {
             if name != crate::character::bones::HEAD_TOP {
                 bone.length *= stretch;
-            }
-        }
-        if let Some(proportions) = &mut shape.proportions {
-            for length in [
-                &mut proportions.neck,
-                &mut proportions.torso,
-                &mut proportions.arm,
-                &mut proportions.leg,
-                &mut proportions.ankle_height,
-            ] {
-                *length *= stretch;
             }
         }
         if let Some(profile) = &mut shape.profile {

@@ -9,7 +9,7 @@ mod words;
 use super::humanoid::{LEFT_ARM, LEFT_FINGERS, LEFT_LEG};
 use super::{Humanoid, Role, Skeleton};
 pub(crate) use words::is_helper;
-use words::{FINGERS, Finger, Part, Reading, Side, read_all, words};
+use words::{FINGERS, Part, Reading, Side, read_all, words};
 
 /// How a list of role names speaks of the thumb's three joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,19 +30,16 @@ impl Role {
 
     /// The role called `name`, where thumbs are named as `thumbs` says.
     pub fn parse_as(name: &str, thumbs: ThumbNames) -> Option<Role> {
-        let plain = plain(name);
-        let (side, finger) = match (plain.strip_prefix("leftthumb"), plain.strip_prefix("rightthumb")) {
-            (Some(joint), _) => ("left", joint),
-            (_, Some(joint)) => ("right", joint),
-            _ => return Role::all().find(|role| role.name().eq_ignore_ascii_case(&plain)),
-        };
-        let joint = match (thumbs, finger) {
-            (_, "metacarpal") | (ThumbNames::Vrm0OrUnity, "proximal") => "metacarpal",
-            (ThumbNames::Vrm1, "proximal") | (_, "intermediate") => "proximal",
-            (_, "distal") => "distal",
-            _ => return None,
-        };
-        let wanted = format!("{side}thumb{joint}");
+        let mut wanted = plain(name);
+        if let Some((side, joint)) = wanted.split_once("thumb") {
+            let joint = match (thumbs, joint) {
+                (_, "metacarpal") | (ThumbNames::Vrm0OrUnity, "proximal") => "metacarpal",
+                (ThumbNames::Vrm1, "proximal") | (_, "intermediate") => "proximal",
+                (_, "distal") => "distal",
+                _ => return None,
+            };
+            wanted = format!("{side}thumb{joint}");
+        }
         Role::all().find(|role| role.name().eq_ignore_ascii_case(&wanted))
     }
 }
@@ -108,17 +105,14 @@ impl NamedSkeleton<'_> {
     fn leg(&self, humanoid: &mut Humanoid, side: Side) {
         let all = |part| self.all(part, Some(side));
         // On one side, a "hip" is where the thigh begins. A pelvis of one side is not.
-        let side_hips: Vec<usize> = all(Part::Hips)
-            .into_iter()
-            .filter(|&joint| {
-                words(&self.skeleton.joints[joint].name).iter().any(|word| word.starts_with("hip"))
-            })
-            .collect();
+        let is_hip = |joint: &usize| {
+            words(&self.skeleton.joints[*joint].name).iter().any(|word| word.starts_with("hip"))
+        };
         let (legs, lowers, feet) = (all(Part::Leg), all(Part::LowerLeg), all(Part::Foot));
         let chain = self.chain(&legs);
         let mut upper = all(Part::UpperLeg).first().copied();
         if upper.is_none() {
-            upper = side_hips.first().copied();
+            upper = all(Part::Hips).into_iter().find(is_hip);
             let leg = self.first_below(&legs, upper);
             if self.first_below(&lowers, leg).is_some() {
                 upper = leg;
@@ -180,16 +174,14 @@ impl NamedSkeleton<'_> {
         }
         let hand =
             self.first_below(&hands, lower.or(upper)).or_else(|| hands.first().copied()).or(hand_by_chain);
-        let shoulder = upper.and_then(|upper| {
-            let above = |&shoulder: &usize| shoulder != upper && self.below(upper, shoulder);
-            shoulders.iter().copied().find(above)
-        });
+        let shoulder =
+            upper.and_then(|upper| shoulders.iter().copied().find(|&shoulder| self.below(upper, shoulder)));
         humanoid.set_on_side(side == Side::Left, LEFT_ARM, [shoulder, upper, lower, hand]);
         let Some(hand) = hand else { return };
-        for finger in FINGERS {
-            let named = all(Part::Finger(finger));
+        for (place, finger) in FINGERS.into_iter().enumerate() {
+            let named = all(finger);
             let mut joints: Vec<usize> = named.into_iter().filter(|&joint| self.below(joint, hand)).collect();
-            joints.extend(self.numbered_finger(finger, hand));
+            joints.extend(self.numbered_finger(place, hand));
             joints.sort_by_key(|&joint| self.depths[joint]);
             // Of joints that do not follow each other only the first line counts.
             let mut line: Vec<usize> = Vec::new();
@@ -198,17 +190,17 @@ impl NamedSkeleton<'_> {
                     line.push(joint);
                 }
             }
-            let mut roles = LEFT_FINGERS[finger as usize].to_vec();
-            if finger == Finger::Thumb && line.len() == 2 {
+            let mut roles = LEFT_FINGERS[place].to_vec();
+            if finger == Part::Thumb && line.len() == 2 {
                 roles.remove(1);
             }
             humanoid.set_on_side(side == Side::Left, roles, line);
         }
     }
 
-    /// Joints of `finger` below `hand` where the finger is told by its number: `finger2-1` is the index finger's
+    /// Joints of the finger in this place below `hand` where it is told by its number: `finger2-1` is the index finger's
     /// first joint (MakeHuman, from 1), `Finger12` its third (Biped, from 0).
-    fn numbered_finger(&self, finger: Finger, hand: usize) -> Vec<usize> {
+    fn numbered_finger(&self, place: usize, hand: usize) -> Vec<usize> {
         let below: Vec<usize> = (0..self.readings.len())
             .filter(|&joint| {
                 let numbered =
@@ -217,7 +209,6 @@ impl NamedSkeleton<'_> {
             })
             .collect();
         let biped = below.iter().any(|&joint| self.readings[joint].numbers == ["0"]);
-        let place = finger as usize;
         let told = |&joint: &usize| match self.readings[joint].numbers.as_slice() {
             [number, _] => number.parse() == Ok(place + 1),
             [number] => {
@@ -241,7 +232,7 @@ impl NamedSkeleton<'_> {
             return;
         };
         humanoid.set(Role::Head, head);
-        let neck = necks.iter().copied().find(|&neck| neck != head && self.below(head, neck));
+        let neck = necks.iter().copied().find(|&neck| self.below(head, neck));
         humanoid.set(Role::Neck, neck);
     }
 
@@ -253,21 +244,16 @@ impl NamedSkeleton<'_> {
         let spines: Vec<usize> =
             spines.into_iter().filter(|&joint| self.readings[joint].part == best).collect();
         let chain = self.chain(&spines);
-        let arms = [Role::LeftUpperArm, Role::RightUpperArm].map(|role| humanoid.joint(role));
-        let [Some(left), Some(right)] = arms else { return };
-        let Some(shoulders_at) = self.skeleton.lowest_common_ancestor(left, right) else {
-            return;
-        };
-        let Some(place) = chain.iter().position(|&joint| joint == shoulders_at) else {
-            return;
-        };
         if chain.len() < 5 || neck.is_some() {
             return;
         }
-        let above = &chain[place + 1..];
-        if let Some(&head) = above.last() {
+        let arms = humanoid.joint(Role::LeftUpperArm).zip(humanoid.joint(Role::RightUpperArm));
+        let shoulders_at = arms.and_then(|(left, right)| self.skeleton.lowest_common_ancestor(left, right));
+        let mut above = chain.into_iter().skip_while(|&joint| Some(joint) != shoulders_at).skip(1);
+        let first = above.next();
+        if let Some(head) = above.last().or(first) {
             humanoid.set(Role::Head, head);
-            humanoid.set(Role::Neck, above.first().copied().filter(|&neck| neck != head));
+            humanoid.set(Role::Neck, first.filter(|&neck| neck != head));
         }
     }
 }
@@ -301,7 +287,7 @@ pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
     let carried = [Role::LeftUpperLeg, Role::RightUpperLeg, Role::Head];
     let carries = |hips: usize| {
         let mut joints = carried.iter().filter_map(|&role| humanoid.joint(role));
-        joints.all(|joint| joint != hips && named.below(joint, hips))
+        joints.all(|joint| named.below(joint, hips))
     };
     let all = named.all(Part::Hips, None);
     let hips = all

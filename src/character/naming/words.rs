@@ -9,18 +9,6 @@ pub(super) enum Side {
     Right,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Finger {
-    Thumb,
-    Index,
-    Middle,
-    Ring,
-    Little,
-}
-
-pub(super) const FINGERS: [Finger; 5] =
-    [Finger::Thumb, Finger::Index, Finger::Middle, Finger::Ring, Finger::Little];
-
 /// A part of the body as names know it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Part {
@@ -42,10 +30,16 @@ pub(super) enum Part {
     LowerLeg,
     Foot,
     Toes,
-    Finger(Finger),
+    Thumb,
+    Index,
+    Middle,
+    Ring,
+    Little,
     /// A finger told by its number alone.
     NumberedFinger,
 }
+
+pub(super) const FINGERS: [Part; 5] = [Part::Thumb, Part::Index, Part::Middle, Part::Ring, Part::Little];
 
 /// The part that a name without side, number and rig words stands for, and how good the word is (0 best).
 fn part_of(core: &str) -> Option<(Part, u8)> {
@@ -87,7 +81,7 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
         "toe" | "toes" | "つま先" | "爪先" | "足先ex" => (Part::Toes, 0),
         "ball" | "football" | "foottoe" | "foottoes" => (Part::Toes, 1),
         "finger" => (Part::NumberedFinger, 0),
-        "fingers" => (Part::Finger(Finger::Middle), 1),
+        "fingers" => (Part::Middle, 1),
         _ => {
             let core = core.strip_prefix("hand").unwrap_or(core);
             // Metacarpals of the four fingers lie in the palm; only the thumb's has a role.
@@ -96,17 +90,17 @@ fn part_of(core: &str) -> Option<(Part, u8)> {
                 .find_map(|joint| core.strip_suffix(joint))
                 .unwrap_or(core);
             let finger = match core {
-                "thumb" | "thumbmetacarpal" | "thumbfinger" | "親指" => Finger::Thumb,
+                "thumb" | "thumbmetacarpal" | "thumbfinger" | "親指" => Part::Thumb,
                 "index" | "indexfinger" | "fingerindex" | "pointer" | "人指" | "人差指" | "人差し指" => {
-                    Finger::Index
+                    Part::Index
                 }
-                "middle" | "mid" | "middlefinger" | "fingermiddle" | "中指" => Finger::Middle,
-                "ring" | "ringfinger" | "fingerring" | "薬指" => Finger::Ring,
+                "middle" | "mid" | "middlefinger" | "fingermiddle" | "中指" => Part::Middle,
+                "ring" | "ringfinger" | "fingerring" | "薬指" => Part::Ring,
                 "little" | "pinky" | "pinkie" | "littlefinger" | "pinkyfinger" | "fingerpinky"
-                | "fingerlittle" | "小指" => Finger::Little,
+                | "fingerlittle" | "小指" => Part::Little,
                 _ => return None,
             };
-            (Part::Finger(finger), 0)
+            (finger, 0)
         }
     })
 }

@@ -90,14 +90,9 @@ impl Tree<'_> {
     /// A foot that hangs elsewhere, near the end of a leg that has none (rigs with IK).
     pub(super) fn loose_foot(&self, upper: usize, lower: usize) -> Option<usize> {
         let shin = self.position[lower] - self.position[upper];
-        let end = self.children[lower]
-            .iter()
-            .map(|&child| self.position[child])
-            .max_by(|a, b| {
-                let along = |p: &DVec3| (*p - self.position[lower]).dot(shin);
-                along(a).total_cmp(&along(b))
-            })
-            .unwrap_or(self.position[lower] + shin);
+        let along = |p: &DVec3| (*p - self.position[lower]).dot(shin);
+        let ends = self.children[lower].iter().map(|&child| self.position[child]);
+        let end = ends.max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(self.position[lower] + shin);
         let parent = self.skeleton.joints[upper].parent;
         let leg = 2.0 * shin.length();
         (0..self.position.len())

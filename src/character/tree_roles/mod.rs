@@ -89,13 +89,9 @@ impl Tree<'_> {
             if children.len() > 1 {
                 stack.extend(children);
             } else {
-                lines.push(self.follow(start, |tree, child| tree.reach[child]));
-            }
-        }
-        // A joint of the palm leads some of the lines.
-        for line in &mut lines {
-            if line.len() > 3 {
-                line.drain(..line.len() - 3);
+                let mut line = self.follow(start, |tree, child| tree.reach[child]);
+                // A joint of the palm leads some of the lines.
+                lines.push(line.split_off(line.len().saturating_sub(3)));
             }
         }
         if lines.len() != 5 || lines.iter().any(|line| line.len() < 2) {

@@ -39,7 +39,6 @@ impl<'a> Tree<'a> {
         let mut reach = vec![0.0_f64; count];
         let mut sums = vec![(DVec3::ZERO, 0.0); count];
         let (mut ground, mut top) = (f64::INFINITY, f64::NEG_INFINITY);
-        let order = skeleton.parents_first();
         for mesh in meshes {
             for (point, row) in mesh.positions.iter().zip(mesh.weights.rows()) {
                 let point = point.as_dvec3();
@@ -76,7 +75,7 @@ impl<'a> Tree<'a> {
             top = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         }
         let mut carried = own.clone();
-        for &joint in order.iter().rev() {
+        for joint in skeleton.parents_first().into_iter().rev() {
             if let Some(parent) = skeleton.joints[joint].parent {
                 carried[parent] += carried[joint];
                 // Joints that carry nothing may be handles far away from the body; near ends still tell a limb's
@@ -185,14 +184,9 @@ impl<'a> Tree<'a> {
 
     /// From `start` on to the best of the live children, down to the last one.
     pub(super) fn follow(&self, start: usize, worth: impl Fn(&Self, usize) -> f64) -> Vec<usize> {
-        let mut path = vec![start];
-        let mut joint = start;
-        while let Some(next) =
+        let best = |&joint: &usize| {
             self.live(joint).into_iter().max_by(|&a, &b| worth(self, a).total_cmp(&worth(self, b)))
-        {
-            path.push(next);
-            joint = next;
-        }
-        path
+        };
+        std::iter::successors(Some(start), best).collect()
     }
 }

@@ -12,7 +12,7 @@ use crate::character::{Character, Mesh, MorphTarget};
 use crate::face::eyes::closes_an_eye;
 use core::ffi::c_char;
 use safer_ffi::prelude::*;
-use state::{CharacterState, of_mesh};
+use state::CharacterState;
 use std::sync::{Arc, RwLock};
 
 pub mod read;
@@ -170,8 +170,8 @@ pub unsafe extern "C" fn sdef_character_add_morph_target(
             normals: deltas("normals", given.normals, given.normal_stride)?,
             tangents: deltas("tangents", given.tangents, given.tangent_stride)?,
         };
-        let checked = target.validate(mesh.morph_targets.len(), count);
-        checked.map_err(|wrong| of_mesh(index, mesh, wrong))?;
+        let checked = target.check(mesh.morph_targets.len(), count);
+        checked.map_err(|fault| mesh.error(index, fault))?;
         // Released, so that the change need not copy the character.
         drop(known);
         state.change(|character| character.meshes[index].morph_targets.push(target))

@@ -5,20 +5,13 @@ use crate::character::mesh::place;
 use crate::character::roles::find_roles;
 use crate::character::{Axes, Character, GreyImage, Humanoid, Mesh, Skeleton};
 use crate::error::Warning;
-use crate::ffi::basics::{SDEF_ELEMENT_VERTEX, SDEF_STATUS_NO_HUMANOID};
+use crate::ffi::basics::SDEF_STATUS_NO_HUMANOID;
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::memory;
 use crate::pipeline::Rig;
 use crate::progress::Progress;
 use crate::rig::RigOptions;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// What is wrong with a mesh, at a vertex or not.
-pub fn of_mesh(index: usize, mesh: &Mesh, (vertex, message): (Option<usize>, String)) -> Failure {
-    let element = vertex.map(|vertex| (SDEF_ELEMENT_VERTEX, vertex));
-    let message = format!("{}: {message}", place(index, &mesh.name));
-    Failure { element, ..Failure::input(message).in_mesh(index) }
-}
 
 /// A character behind a handle.
 pub struct CharacterState {
@@ -152,8 +145,8 @@ impl CharacterState {
     pub fn set_skeleton(&mut self, skeleton: Skeleton, roles: Humanoid) -> Outcome {
         let count = skeleton.joints.len();
         for (index, mesh) in self.character().meshes.iter().enumerate() {
-            let checked = mesh.weights.validate(mesh.positions.len(), count);
-            checked.map_err(|wrong| of_mesh(index, mesh, wrong))?;
+            let checked = mesh.weights.check(mesh.positions.len(), count);
+            checked.map_err(|fault| mesh.error(index, fault))?;
         }
         self.change(|character| {
             character.skeleton = skeleton;
@@ -196,7 +189,7 @@ impl CharacterState {
         let vertices = character.vertex_count() + mesh.positions.len();
         if vertices >= u32::MAX as usize {
             let message = format!("with it the character has {vertices} vertices: give at most 4294967294");
-            return Err(of_mesh(index, &mesh, (None, message)));
+            return Err(mesh.error(index, (None, message)).into());
         }
         // Released, so that the change need not copy the character.
         drop(character);

@@ -20,23 +20,18 @@ pub const FINGER_LENGTH_SCALE: f64 = 0.5;
 /// beta of hand, finger and foot. Paper, V-B3; D16.
 pub const FINGER_THICKNESS_SCALE: f64 = 1.0;
 
-/// What the paper does with a group unless the user says otherwise.
-enum Rule {
-    /// Eqs. 10 and 11 with these eta and phi.
-    Transfer(f64, f64),
-    /// These alpha and beta.
-    Fixed(f64, f64),
-}
-
-fn rule(kind: Group, head_scale: f64) -> Rule {
+/// What the paper does with a group unless the user says otherwise: the alpha and beta of some, and eta and phi of Eqs. 10
+/// and 11.
+fn rule(kind: Group, head_scale: f64) -> (Option<Coefficient>, f64, f64) {
+    let fixed = |length_scale: f64, thickness_scale: f64| {
+        (Some(Coefficient { length_scale, thickness_scale }), FULL_TRANSFER, FULL_TRANSFER)
+    };
     match kind {
         // Eq. 4; and with beta = alpha, Eqs. 5 and 8 together scale the head about its joint, so faces keep their shape.
-        Group::Head => Rule::Fixed(head_scale, head_scale),
-        Group::Shoulder | Group::Hip => {
-            Rule::Transfer(SUPPRESSED_LENGTH_TRANSFER, SUPPRESSED_THICKNESS_TRANSFER)
-        }
-        Group::Hand | Group::Finger | Group::Foot => Rule::Fixed(FINGER_LENGTH_SCALE, FINGER_THICKNESS_SCALE),
-        _ => Rule::Transfer(FULL_TRANSFER, FULL_TRANSFER),
+        Group::Head => fixed(head_scale, head_scale),
+        Group::Shoulder | Group::Hip => (None, SUPPRESSED_LENGTH_TRANSFER, SUPPRESSED_THICKNESS_TRANSFER),
+        Group::Hand | Group::Finger | Group::Foot => fixed(FINGER_LENGTH_SCALE, FINGER_THICKNESS_SCALE),
+        _ => (None, FULL_TRANSFER, FULL_TRANSFER),
     }
 }
 
@@ -105,8 +100,7 @@ pub fn coefficients(
         let stand_in = stand_in(&bone.group, &target_bones, &bodies.bones)
             .and_then(|name| result.groups.get(name))
             .copied();
-        let rule = rule(bone.kind, head_scale);
-        let coefficient = bodies.of_group(&bone.group, rule, &given, stand_in, &mut result.warnings);
+        let coefficient = bodies.of_group(bone, head_scale, &given, stand_in, &mut result.warnings);
         if coefficient.length_scale > 1.0 && bone.kind != Group::Head && given.length_scale.is_none() {
             let message = format!(
                 "the group {} becomes longer: its length scale is {:.3}",
@@ -119,13 +113,13 @@ pub fn coefficients(
     // Hands without fingers and feet without toes are no bones, but they have a thickness.
     for role in roles {
         let group = Group::beginning_at(role);
-        if let (Group::Hand | Group::Foot, Rule::Fixed(alpha, beta)) = (group, rule(group, head_scale))
+        if let (Group::Hand | Group::Foot, (Some(own), ..)) = (group, rule(group, head_scale))
             && !target_bones.iter().any(|bone| bone.kind == group)
         {
             let given = settings.get(group.name()).copied().unwrap_or_default();
             let coefficient = Coefficient {
-                length_scale: given.length_scale.unwrap_or(alpha),
-                thickness_scale: given.thickness_scale.unwrap_or(beta),
+                length_scale: given.length_scale.unwrap_or(own.length_scale),
+                thickness_scale: given.thickness_scale.unwrap_or(own.thickness_scale),
             };
             result.groups.insert(group.name().to_string(), coefficient);
         }
@@ -143,23 +137,21 @@ struct Bodies {
 }
 
 impl Bodies {
-    /// alpha and beta of the group named `group`: as `given`, else as `rule` says; those of `stand_in` where the
-    /// reference has no bone of the group.
+    /// alpha and beta of the group of `bone`: as `given`, else by the [`rule`] for it; those of `stand_in` where the reference
+    /// has no bone of the group.
     fn of_group(
         &self,
-        group: &str,
-        rule: Rule,
+        Bone { group, kind, .. }: &Bone,
+        head_scale: f64,
         given: &GroupSettings,
         stand_in: Option<Coefficient>,
         warnings: &mut Vec<Warning>,
     ) -> Coefficient {
-        let (own_alpha, own_beta, own_eta, own_phi) = match rule {
-            Rule::Fixed(alpha, beta) => (Some(alpha), Some(beta), FULL_TRANSFER, FULL_TRANSFER),
-            Rule::Transfer(eta, phi) => (None, None, eta, phi),
-        };
-        let alpha = given.length_scale.or(own_alpha.filter(|_| given.length_transfer.is_none()));
-        let beta = given.thickness_scale.or(own_beta.filter(|_| given.thickness_transfer.is_none()));
-        let counted: Vec<&Bone> = self.bones.iter().filter(|other| other.group == group).collect();
+        let (own, own_eta, own_phi) = rule(*kind, head_scale);
+        let own_alpha = own.filter(|_| given.length_transfer.is_none()).map(|own| own.length_scale);
+        let own_beta = own.filter(|_| given.thickness_transfer.is_none()).map(|own| own.thickness_scale);
+        let (alpha, beta) = (given.length_scale.or(own_alpha), given.thickness_scale.or(own_beta));
+        let counted: Vec<&Bone> = self.bones.iter().filter(|other| other.group == *group).collect();
         if counted.is_empty() && (alpha.is_none() || beta.is_none()) {
             let (message, other) = match stand_in {
                 Some(other) => ("takes its coefficients from the bone that stands for it there", other),
@@ -239,11 +231,7 @@ fn check(head_scale: f64, settings: &BTreeMap<String, GroupSettings>, bones: &[B
             let message = format!("there is no bone group {group}: give one of {known}");
             return Err(Error::new(ErrorKind::BadOption, message).about("groups"));
         }
-        for (name, value) in given.numbers() {
-            if let Some(value) = value {
-                option(name).check_in_group(group, value)?;
-            }
-        }
+        given.check(group)?;
     }
     Ok(())
 }

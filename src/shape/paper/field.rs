@@ -47,17 +47,11 @@ impl BoneField {
         coefficients: &BTreeMap<String, Coefficient>,
     ) -> Self {
         let thickness = |group: &str| coefficients.get(group).map(|coefficient| coefficient.thickness_scale);
-        let mut field = Vec::with_capacity(bones.len() + joints.len());
+        let mut field: Vec<FieldBone> = Vec::with_capacity(bones.len() + joints.len());
+        let places = |role: Role| Some((*joints.get(&role)?, *shortened.joints.get(&role)?));
         for bone in bones {
-            let old = |role: Role| joints.get(&role).copied();
-            let new = |role: Role| shortened.joints.get(&role).copied();
-            let ends = match bone.child {
-                Some(child) => old(child).zip(new(child)),
-                None => Some((head_top, shortened.head_top)),
-            };
-            if let (Some(parent), Some(new_parent), Some((child, new_child))) =
-                (old(bone.parent), new(bone.parent), ends)
-            {
+            let ends = bone.child.map_or(Some((head_top, shortened.head_top)), places);
+            if let (Some((parent, new_parent)), Some((child, new_child))) = (places(bone.parent), ends) {
                 field.push(FieldBone {
                     joint: bone.parent,
                     parent,
@@ -68,8 +62,8 @@ impl BoneField {
                 });
             }
         }
-        for (&joint, &new) in &shortened.joints {
-            let Some(&old) = joints.get(&joint) else { continue };
+        for &joint in shortened.joints.keys() {
+            let Some((old, new)) = places(joint) else { continue };
             if field.iter().any(|bone| bone.joint == joint) {
                 continue;
             }
@@ -96,27 +90,23 @@ impl BoneField {
     /// distance; a role without bones hands its weight to the nearest role above that has some.
     pub fn bone_weights(&self, v: DVec3, role_weights: &[(Role, f64)]) -> Vec<(u16, f64)> {
         let mut weights: Vec<(u16, f64)> = Vec::with_capacity(role_weights.len() + 2);
-        let mut add =
-            |bone: usize, weight: f64| match weights.iter_mut().find(|(other, _)| *other == bone as u16) {
-                Some((_, sum)) => *sum += weight,
-                None => weights.push((bone as u16, weight)),
-            };
         for &(role, weight) in role_weights {
             let of = |role: Role| self.bones.iter().enumerate().filter(move |(_, bone)| bone.joint == role);
             let Some(role) = role.chain().find(|&role| of(role).next().is_some()) else {
                 continue;
             };
-            let near: Vec<(usize, f64)> = of(role)
-                .map(|(index, bone)| (index, foot(v, bone.parent, bone.child).0.distance_squared(v)))
+            let near: Vec<(u16, f64)> = of(role)
+                .map(|(index, bone)| (index as u16, foot(v, bone.parent, bone.child).0.distance_squared(v)))
                 .collect();
             let least = near.iter().map(|&(_, distance)| distance).fold(f64::INFINITY, f64::min);
             // Relative to the least distance, so that a vertex on a bone divides 0 by 0 nowhere.
             let share = |distance: f64| if distance == least { 1.0 } else { least / distance };
             let total: f64 = near.iter().map(|&(_, distance)| share(distance)).sum();
-            for &(bone, distance) in &near {
-                let part = weight * share(distance) / total;
-                if part > 0.0 {
-                    add(bone, part);
+            let parts = near.iter().map(|&(bone, distance)| (bone, weight * share(distance) / total));
+            for (bone, part) in parts.filter(|&(_, part)| part > 0.0) {
+                match weights.iter_mut().find(|(other, _)| *other == bone) {
+                    Some((_, sum)) => *sum += part,
+                    None => weights.push((bone, part)),
                 }
             }
         }
