@@ -87,7 +87,7 @@ pub fn to_change_options(deformer: &Deformer, options: &Options) -> usize {
 
 /// Deforming into the caller's arrays.
 pub fn to_apply(character: &Character) -> usize {
-    Size::of(character).bytes([170, 240, 60, 0])
+    Size::of(character).bytes([136, 192, 48, 0])
 }
 
 /// Mapping morph targets of a character's mesh that change so many vertices together.
