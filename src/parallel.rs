@@ -11,9 +11,10 @@ use std::thread::{LocalKey, Scope, ScopedJoinHandle};
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
 
-/// Fewer vertices or triangles than this are not worth a thread, ...
+/// Fewer vertices or triangles than this are not worth a thread. It changes time alone.
 pub const FEW: usize = 8000;
-/// ... and fewer points that each look for the nearest of a surface, or cast rays. Time alone.
+/// Fewer points than this are not worth a thread where each looks for the nearest of a surface, or casts rays. It
+/// changes time alone.
 pub const FEW_RAYS: usize = 200;
 
 /// A host's own way to run tasks beside each other, such as an engine's job system.

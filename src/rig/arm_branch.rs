@@ -6,31 +6,31 @@ use super::solid::branches::Rim;
 use crate::geometry::{distinct, median};
 use glam::{DVec2, DVec3};
 
-/// A section this much thicker than the ones before it has trunk in it: two readings, for smooth arms and for others, ...
+/// A section this much thicker than the ones before it has trunk in it: two readings, for smooth arms and for others.
 const WIDENS: [f64; 2] = [1.35, 1.9];
-/// ... of which so many are looked at, ...
+/// A section's thickness is compared with that of so many sections before it.
 const BEFORE: usize = 8;
-/// ... and than this share of the thickest one: a wrist is slimmer than the hand was.
+/// A section with trunk in it is thicker than this times the thickest one before it: a wrist is slimmer than the hand was.
 const OF_THICKEST: f64 = 1.05;
-/// A limb's tip, which grows thicker, has so many sections, ...
+/// A limb's tip, which grows thicker, has so many sections.
 const TIP: usize = 5;
-/// ... and all of it has at least so many.
+/// A limb has at least so many sections.
 const LEAST_RIMS: usize = 10;
-/// The line of the upper arm is fitted to this share of the sections, ...
+/// The line of the upper arm is fitted to this share of the arm's sections.
 const UPPER: f64 = 0.4;
-/// ... without the last ones, in which the shoulder begins.
+/// The line of the upper arm leaves out so many of the last sections, in which the shoulder begins.
 const LAST: usize = 2;
-/// An arm held forward at least so far begins in the depth of the trunk's middle, ...
+/// An arm held forward by at least this share of its length begins in the depth of the trunk's middle.
 const FORWARD: f64 = 0.5;
-/// ... no further in than this, in heights.
+/// An arm held forward begins no further in than this, in heights.
 const FORWARD_IN: f64 = 0.12;
 /// The shoulder joint lies so many radii further in than the last section.
 const SHOULDER_IN: f64 = 0.3;
-/// An arm that runs down at least this steeply may lie on the trunk further up, ...
+/// An arm whose upper arm runs down by at least this share of its length may lie on the trunk further up.
 const STEEP: f64 = 0.8;
-/// ... and its shoulder joint lies so many radii under where its line leaves the shoulder, ...
+/// The shoulder joint of an arm that runs down steeply lies so many radii under where the arm's line leaves the shoulder.
 const UNDER_TOP: f64 = 1.15;
-/// ... within this distance, in heights.
+/// The line of an arm that runs down steeply leaves the shoulder within this distance, in heights.
 const TOP_WITHIN: f64 = 0.35;
 
 /// The arms that a branch may be, each with whether it is a left one: from its tip, or without a thing in the hand.

@@ -18,27 +18,28 @@ const HEIGHT: (f64, f64) = (0.86, 0.15);
 /// How far beside the way from shoulder to wrist an elbow is no surprise, as a share of the arm's length: an arm bent by 60
 /// degrees.
 const BENT: f64 = 0.2;
-/// Shoulders are each other's image to within this, in heights, ...
+/// Shoulders are each other's image to within this, in heights.
 const APART: f64 = 0.03;
-/// ... and arms as long to within this, as a logarithm.
+/// The two arms are as long as each other to within this, as a logarithm.
 const UNEVEN: f64 = 0.15;
 /// Hands as long to within this, as a logarithm, are alike.
 const UNEVEN_HANDS: f64 = 0.25;
-/// Arms pass a joint that is given by this, in heights, ...
+/// An arm passes a joint that is given within this distance, in heights.
 const PASSES: f64 = 0.02;
-/// ... and what it costs where one passes it by further.
+/// What an arm costs at most that passes a given joint by more than `PASSES`: more than no arm does.
 const PASSES_BY: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;
-/// What it costs where no armpit is seen, ...
+/// What an arm costs whose armpit is not seen.
 const NO_PIT: f64 = 4.0;
-/// ... where no wrist is, ...
+/// What an arm costs whose wrist is not seen.
 const NO_WRIST: f64 = 1.0;
-/// ... where all of the arm lies in the air, ...
+/// What an arm costs all of which lies in the air.
 const IN_AIR: f64 = 20.0;
-/// ... where an elbow or a wrist lies in something this many times as thick as the arm, all around, ...
+/// An elbow or a wrist in something this many times as thick as the arm, all around, such as a head, is too deep; each
+/// costs the second, half of `IN_AIR`.
 const DEEP: (f64, f64) = (2.2, 10.0);
-/// ... and where there is no arm.
+/// What a side without an arm costs.
 const NO_ARM: f64 = 14.0;
 /// Rays are finer than cells: what they see goes before what costs less by no more than this.
 pub const FINER: f64 = 1.5;

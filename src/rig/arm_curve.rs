@@ -33,15 +33,15 @@ const ARM_BEGINNING: usize = 6;
 const RADIUS_RANGE: (usize, usize) = (10, 3);
 /// The sections of the arm's upper piece, likewise. Seen: at -30 %, three fewer joints off by over 0.06 H.
 const UPPER_RANGE: (usize, usize) = (20, 4);
-/// A wrist is slimmer than the hand and than the arm by these factors (seen: at -30 %, three fewer good joints doubted;
-/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H), ...
+/// A wrist is slimmer than the hand and than the arm by these factors. Seen: at -30 %, three fewer good joints doubted;
+/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H.
 const HAND_WIDENS: f64 = 1.12;
 const ARM_WIDENS: f64 = 1.05;
 /// Of places that are about as slim, which differ by less than the hand does, the last one is where the hand begins, if what
 /// is slim before it is so by chance: the wrist lies this share of the way to it.
 const TO_HAND: f64 = 0.5;
-/// ... and not within this of the end of its range, where the slimmest section only shows that the arm grows thinner still. Seen:
-/// ±30 % changes no joint.
+/// No wrist lies within this of the far end of `WRIST_RANGE`, where the slimmest section only shows that the arm grows
+/// thinner still. Seen: ±30 % changes no joint.
 const WRIST_MARGIN: f64 = 0.02;
 /// A bend is looked for between these shares of the way from shoulder to wrist: elbows are at .56 of it (Winter: .186 of
 /// .332 H), of stylised figures and babies from .4 on. Seen: from .34 on, the elbows of two babies are off by 0.028 H more.

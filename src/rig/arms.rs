@@ -11,21 +11,23 @@ use std::ops::Range;
 /// An arm's column of cells that reaches lower than the arm by so many of its thicknesses belongs to the trunk. Seen:
 /// at +30 %, joints lie 0.0005 H further off.
 const PIT_DROP: f64 = 0.8;
-/// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch (seen: ±30 %
-/// changes no joint), ...
+/// Where the trunk begins, its side reaches down from the arm by this share of the way to the crotch. Seen: ±30 %
+/// changes no joint.
 const TRUNK_DROP: f64 = 0.3;
-/// ... but by at least so many heights: a hand that hangs beside the crotch is no trunk, ...
+/// The trunk's side reaches down from the arm by at least so many heights: a hand that hangs beside the crotch is no trunk.
 const LEAST_DROP: f64 = 0.06;
-/// ... within this distance: a cuff or a thick sleeve does not. Seen: ±30 % changes no joint.
+/// The trunk's side reaches down by `TRUNK_DROP` within this distance of where the trunk begins, in heights: that of a
+/// cuff or a thick sleeve does not. Seen: ±30 % changes no joint.
 const TRUNK_WITHIN: f64 = 0.04;
 /// The share of an arm, from the tip, to which its line is fitted. Seen: ±30 % moves joints by under 0.0005 H.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
 const STATIONS: usize = 120;
-/// The shoulder joint lies straight over a point this many arm radii outside of the armpit (seen: at -30 %, four fewer
-/// joints off by over 0.06 H), ...
+/// The shoulder joint lies straight over a point this many arm radii outside of the armpit. Seen: at -30 %, four fewer
+/// joints off by over 0.06 H.
 const SHOULDER_OUT: f64 = 0.4;
-/// ... and so many over the middle of the arm, which hangs from it. Seen: ±30 % moves joints by under 0.0005 H.
+/// The shoulder joint lies so many arm radii over the middle of the arm, which hangs from it. Seen: ±30 % moves
+/// joints by under 0.0005 H.
 const SHOULDER_OVER: f64 = 0.2;
 /// Following starts at this share of the arm, where it is clear of the trunk. Seen: ±30 % moves joints by under
 /// 0.0005 H.
@@ -42,9 +44,9 @@ const STEEPEST: f64 = 0.25;
 /// Rays go on beyond the tip, or the last ones would miss it. Seen: at -30 %, joints lie 0.030 H further off, 58 more
 /// by over 0.06 H, 37 more good joints doubted.
 const BEYOND_TIP: f64 = 1.02;
-/// Rays begin inside of the armpit by this share of the arm's length (seen: ±30 % moves joints by under 0.0005 H), ...
+/// Rays begin inside of the armpit by this share of the arm's length. Seen: ±30 % moves joints by under 0.0005 H.
 const INSIDE_OF_PIT: f64 = 0.25;
-/// ... and reach this share of it to either side. Seen: ±30 % moves joints by under 0.0005 H.
+/// Rays reach this share of the arm's length to either side of the arm. Seen: ±30 % moves joints by under 0.0005 H.
 const SPAN: f64 = 0.35;
 /// Fewer columns, or sections, are no arm. Seen: ±30 % changes no joint.
 const LEAST_STATIONS: usize = 12;

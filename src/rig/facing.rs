@@ -15,10 +15,11 @@ use glam::{DMat3, DVec2, DVec3, Vec3, Vec3Swizzles, Vec4};
 /// fewer of 115 poses warned of.
 const CELL_COUNT: usize = 64;
 
-/// Cells that are compared in the first sweep, about (seen: ±30 % changes no direction) ...
+/// About so many cells are compared in the first sweep. Seen: ±30 % changes no direction.
 const SWEEP_CELL_COUNT: usize = 400;
 
-/// ... and around the best plane of that. Seen: ±30 % turns directions by under half a degree.
+/// About so many cells are compared around the best plane of the first sweep. Seen: ±30 % turns directions by
+/// under half a degree.
 const FINE_CELL_COUNT: usize = 2500;
 
 /// Degrees between the planes of the first sweep. Seen: ±30 % turns directions by under half a degree.
@@ -42,20 +43,20 @@ const SNAP_ANGLE: f64 = 3.0;
 /// A figure less like its mirror image than this has no left and right to be sure of. Seen: ±30 % changes no direction.
 const LEAST_LIKENESS: f64 = 0.45;
 
-/// A plane at more than this many degrees from the best one (seen: ±30 % changes no direction) ...
+/// A plane at more than this many degrees from the best one is another one. Seen: ±30 % changes no direction.
 const APART_ANGLE: f64 = 30.0;
 
-/// ... that scores this near to it could as well be the right one. Seen: ±30 % changes no direction.
+/// Another plane that scores this near to the best one could as well be the right one. Seen: ±30 % changes no direction.
 const LEAST_MARGIN: f64 = 0.03;
 
 /// One that scores this near is looked at as well: in a figure that is turned a quarter no limbs show.
 const TRIED_MARGIN: f64 = 0.12;
 
-/// Votes that add up to less than this leave a doubt which way is front (seen: at -30 %, five fewer of 115 poses warned
-/// of) ...
+/// Votes that add up to less than this leave a doubt which way is front. Seen: at -30 %, five fewer of 115 poses warned of.
 const SURE_VOTE: f64 = 0.25;
 
-/// ... and to less than this say nothing. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees.
+/// Votes that add up to less than this do not say which way is front. Seen: at -30 %, three fewer of 115 poses
+/// wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
 
 /// Points of the surface are no further apart than this share of a cell. Seen: ±30 % turns directions by under half a degree.

@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 /// Vertices that lie this many times as far from the middle as all that are nearer are far away. A sword is as long as its
 /// figure, from whose middle a foot is half as far: twice.
 const JUMP: f32 = 4.0;
-/// No more than this share of the vertices, ...
+/// No more than this share of the vertices is far away, beside `COPIES`.
 const MOST: f64 = 0.01;
-/// ... and this many copies of one at a seam. What consists of fewer than `LEAST_VERTICES` has no usual size.
+/// So many copies of one vertex at a seam may be far away as well. What consists of fewer than `LEAST_VERTICES`
+/// has no usual size.
 const COPIES: usize = 4;
 const LEAST_VERTICES: usize = 64;
 

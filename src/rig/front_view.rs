@@ -14,17 +14,18 @@ pub const ROWS: usize = 400;
 const LEAST_HALF_COLUMNS: usize = 8;
 /// More columns on either side than this (4 heights) show nothing of a figure. A bound for memory.
 const MOST_HALF_COLUMNS: usize = 4 * ROWS;
-/// A set of meshes is whole where its feet and its head reach to within this of those of all meshes (seen: ±30 %
-/// changes no joint), ...
+/// A set of meshes is whole where its feet and its head reach to within these distances of those of all meshes. Seen:
+/// ±30 % changes no joint.
 const LOW_REACH: f64 = 0.04;
 const HIGH_REACH: f64 = 0.12;
-/// ... its arms to within this share of them (seen: at +30 %, joints lie 0.001 H further off, three more good joints
-/// doubted), ...
+/// A set of meshes is whole where its arms reach at least this share as far out as those of all meshes. Seen: at +30 %,
+/// joints lie 0.001 H further off, three more good joints doubted.
 const WIDE_SHARE: f64 = 0.6;
-/// ... nearly all rows between show something (seen: at +30 %, joints lie 0.003 H further off, eight more by over
-/// 0.06 H), ...
+/// A set of meshes is whole where nearly all rows between feet and head, at least this share, show something. Seen: at
+/// +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const FILLED_ROWS: f64 = 0.97;
-/// ... and nearly all of it hangs together. Seen: at +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
+/// A set of meshes is whole where nearly all of it, at least this share, hangs together. Seen: at +30 %, joints lie
+/// 0.003 H further off, eight more by over 0.06 H.
 const CONNECTED_SHARE: f64 = 0.9;
 /// Gaps of so many cells within a row are slits between patches, not air. Seen: ±30 % moves joints by under 0.0005 H.
 pub const SLIT: usize = 2;
@@ -37,9 +38,9 @@ const AXIS_GAIN: f64 = 0.004;
 pub struct FrontView<'a> {
     /// Vertices of the unit figure.
     pub positions: &'a [DVec3],
-    /// The meshes that are looked at, ...
+    /// The meshes that are looked at.
     pub meshes: Vec<bool>,
-    /// ... and their triangles.
+    /// The triangles of the meshes that are looked at.
     pub triangles: Vec<[u32; 3]>,
     /// What the rays meet: columns to the left, rows up, an even number of columns about the axis.
     pub grid: RayGrid,

@@ -11,19 +11,20 @@ const CHIN_VOTE: f64 = 0.2;
 /// Feet stand within this distance of the middle, in heights; hands and swords may be further out. Seen: ±30 % changes
 /// no direction.
 const FEET_REACH: f64 = 0.3;
-/// Heel and tip of a foot are looked for up to this height (seen: at -30 %, five fewer of 115 poses warned of; at
-/// +30 %, 20 more of 115 poses warned of), ...
+/// Heel and tip of a foot are looked for up to this height. Seen: at -30 %, five fewer of 115 poses warned of; at +30 %,
+/// 20 more of 115 poses warned of.
 const SOLE_UP_TO: f64 = 0.04;
-/// ... and back and front of the shin between these. Seen: at -30 %, three fewer of 115 poses wrong by over 5 degrees;
-/// at +30 %, two more of 115 poses wrong by over 5 degrees.
+/// Back and front of the shin are looked for between these heights. Seen: at -30 %, three fewer of 115 poses wrong by
+/// over 5 degrees; at +30 %, two more of 115 poses wrong by over 5 degrees.
 const SHIN_RANGE: (f64, f64) = (0.06, 0.12);
-/// Rows of the profile in which the chin is looked for (a row is 0.017 H, less than the least chin), ...
+/// The profile in which the chin is looked for has so many rows: a row is 0.017 H, less than the least chin.
 const PROFILE_ROWS: usize = 60;
-/// ... between these, which hold head and neck, be the head large or small (chins of 2.2 to 20 heads lie within), ...
+/// The chin is looked for between these rows of the profile, which hold head and neck, be the head large or small: chins
+/// of 2.2 to 20 heads lie within.
 const HEAD_ROWS: (usize, usize) = (PROFILE_ROWS * 11 / 20, PROFILE_ROWS * 19 / 20);
-/// ... as means over so many (seen: at -30 %, five fewer of 115 poses warned of), ...
+/// Steps of the profile are read between means over so many rows. Seen: at -30 %, five fewer of 115 poses warned of.
 const STEP_ROWS: usize = 3;
-/// ... within this distance of the middle, in heights. Seen: ±30 % changes no direction.
+/// The profile is read within this distance of the middle, in heights. Seen: ±30 % changes no direction.
 const PROFILE_REACH: f64 = 0.03;
 /// A step of the profile below this, in heights, is no chin. Seen: ±30 % changes no direction.
 const LEAST_CHIN: f64 = 0.02;

@@ -9,19 +9,20 @@ const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
 /// The chin's rays start and end at these shares of the way from shoulders to crown (D25). Seen: ±30 % moves joints by
 /// under 0.0005 H.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
-/// The middle's depth is a median over this share of half the width (seen: ±30 % moves joints by under 0.0005 H), ...
+/// The middle's depth is a median over this share of half the width. Seen: ±30 % moves joints by under 0.0005 H.
 const MIDDLE_REACH: f64 = 0.6;
-/// ... but no less and no more from the axis than this, in heights: a tail is narrower, arms are outside. Seen: ±30 %
-/// moves joints by under 0.0005 H.
+/// The middle's depth is read within no less and no more than this of the axis, in heights: a tail is narrower, arms are
+/// outside. Seen: ±30 % moves joints by under 0.0005 H.
 const MIDDLE_RANGE: (f64, f64) = (0.005, 0.08);
 
 /// A crown lies at least this far over the shoulders, in heights: nothing divides by less. Seen: ±30 % changes no
 /// joint.
 const LEAST_HEAD: f64 = 0.02;
-/// Rows no wider than this times the narrowest are as narrow (seen: at -30 %, joints lie 0.0006 H further off, three
-/// fewer by over 0.06 H; at +30 %, five more joints off by over 0.06 H), ...
+/// Rows no wider than this times the narrowest are as narrow. Seen: at -30 %, joints lie 0.0006 H further off, three
+/// fewer by over 0.06 H; at +30 %, five more joints off by over 0.06 H.
 const AS_NARROW: f64 = 1.05;
-/// ... within this share of the same; the neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
+/// Of the rows as narrow as the narrowest one, those within this share of the way from shoulders to crown count; the
+/// neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
 const NECK_REACH: f64 = 0.15;
 /// How far forward the chin is, is read within this distance of the axis, in heights. Seen: ±30 % changes no joint.
 const CHIN_READ_WITHIN: f64 = 0.02;

@@ -37,35 +37,34 @@ const LONGER_ARM: f64 = 1.15;
 /// A trunk that takes more than this share of an arm's reach is wider than its shoulders are. Seen: at -30 %, 18 more
 /// good joints doubted; at +30 %, 15 more bad joints trusted.
 const STOUT: f64 = 0.33;
-/// Its shoulder joints are this far out, as a share of the reach (Winter, table 4.1: .129 of .129 + .44 H). Seen: without it,
-/// the shoulders of six models lie .06 to .08 H too far out ...
+/// The shoulder joints of a stout trunk are this far out, as a share of the reach (Winter, table 4.1: .129 of .129 + .44
+/// H). Seen: without it, the shoulders of six models lie .06 to .08 H too far out.
 const SHOULDER_OF_REACH: f64 = 0.227;
-/// ... unless it takes more than this: what is so wide is hair or a cloak. Seen: stout models .35 to .37, hair around the
-/// arms of a random person .47.
+/// What takes more than this share of an arm's reach is no stout trunk, but hair or a cloak. Seen: stout models .35 to
+/// .37, hair around the arms of a random person .47.
 const NO_TRUNK: f64 = 0.42;
-/// A neck lies above this share of the way from crotch to crown (the waist is below), ...
+/// A neck lies above this share of the way from crotch to crown; the waist is below.
 const NECK_ABOVE: f64 = 0.3;
-/// ... and is narrower than this share of what is below and of what is above.
+/// A neck is narrower than this share of what is below it and of what is above it.
 const NECK_NARROWS: f64 = 0.75;
-/// The trunk's core, from which branches start: from this share of the way from crotch to neck, ...
+/// The trunk's core, from which branches start, begins at this share of the way from crotch to neck.
 const CORE_FROM: f64 = 0.1;
-/// ... up to the neck, or this share of the way to the crown.
+/// The trunk's core ends at the neck or, where none is seen, at this share of the way from crotch to crown.
 const CORE_BY_RATIO: f64 = 0.45;
-/// An arm is longer than so many of its radii (seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
-/// 21 more good joints doubted), ...
+/// An arm is longer than so many of its radii. Seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
+/// 21 more good joints doubted.
 const SLENDER: f64 = 4.0;
-/// ... and its shoulder lies between these shares of the way from crotch to crown. Seen: at -30 %, four more good
-/// joints doubted; at +30 %, joints lie 0.007 H further off, seven more by over 0.06 H, seven more good joints doubted.
+/// An arm's shoulder lies between these shares of the way from crotch to crown. Seen: at -30 %, four more good joints
+/// doubted; at +30 %, joints lie 0.007 H further off, seven more by over 0.06 H, seven more good joints doubted.
 const SHOULDER_RANGE: (f64, f64) = (0.2, 0.95);
 /// Spine and chest lie behind the trunk's middle by this share of half its depth. Seen: ±30 % moves joints by under
 /// 0.0005 H.
 const SPINE_BACK: f64 = 0.12;
-/// The hips lie above the hip joints by this share of the way to the neck (seen: at +30 %, four more joints off by over
-/// 0.06 H), ...
+/// The hips lie above the hip joints by this share of the way to the neck. Seen: at +30 %, four more joints off by over 0.06 H.
 const HIPS_UP: f64 = 0.06;
-/// ... the chest at this share of the way from hips to neck, and the spine at this share of the way from hips to chest.
-/// Seen: at +30 %, joints lie 0.002 H further off, eight more by over 0.06 H; of the second, at +30 %, eight more
-/// joints off by over 0.06 H.
+/// The chest lies at the first of these shares of the way from hips to neck, the spine at the second of the way from
+/// hips to chest. Seen: at +30 %, joints lie 0.002 H further off, eight more by over 0.06 H; of the second, at +30 %,
+/// eight more joints off by over 0.06 H.
 const CHEST_SHARE: f64 = 0.48;
 const SPINE_OF_CHEST: f64 = 0.46;
 /// The legs are looked for below this share of the height. Seen: at -30 %, three more joints off by over 0.06 H.
@@ -92,10 +91,10 @@ const CLAVICLE_SHARE: f64 = 0.3;
 /// The clavicle lies over the shoulder joint by this share of the way from shoulder line to neck. Seen: ±30 % moves
 /// clavicles by up to 0.007 H.
 const CLAVICLE_OVER: f64 = 0.3;
-/// Where no arm is seen: the shoulder line's height over the crotch, as a share of what is above that, ...
+/// Where no arm is seen, the shoulder line lies over the crotch by this share of what is above that.
 const SHOULDER_BY_RATIO: f64 = 0.62;
-/// ... and distances from the axis of shoulder, elbow, wrist and tip of an arm held out. Seen: ±30 % moves joints by
-/// under 0.0005 H.
+/// Where no arm is seen, one is held out, with shoulder, elbow, wrist and tip at these distances from the axis, in
+/// heights. Seen: ±30 % moves joints by under 0.0005 H.
 const ARM_BY_RATIO: [f64; 4] = [0.10, 0.25, 0.39, 0.48];
 /// The top of the head is as far forward as its middle this far below the crown, in heights. Seen: ±30 % moves no
 /// joint, and vertices by up to 0.001 H.
@@ -109,20 +108,24 @@ const ALIKE: f64 = 0.025;
 const DIFFER: f64 = 0.04;
 
 /// Confidence of what a rule saw, below 0.5 a joint is warned of: the share of such limb joints within 0.03 H. Of random
-/// people (160 of even seeds) it is .96, of stripped models .91, and of the 160 of odd seeds .97, ...
+/// people (160 of even seeds) it is .96, of stripped models .91, and of the 160 of odd seeds .97.
 pub const SEEN: f64 = 0.93;
-/// ... of what follows from that by the way bodies are made (seen: at -30 %, 51 more good joints doubted), ...
+/// Confidence of what follows from what a rule saw by the way bodies are made. Seen: at -30 %, 51 more good joints doubted.
 pub const DERIVED: f64 = 0.7;
-/// ... of hip joints, which artists put at heights of their own choice (1.0 of random people, .65 of stripped models, .71
-/// of their solids), ...
+/// Confidence of hip joints that a rule saw, which artists put at heights of their own choice: the share within 0.03 H
+/// is 1.0 of random people, .65 of stripped models, .71 of their solids.
 const SEEN_HIP: f64 = 0.83;
-/// ... of legs that show inside of a skirt alone (1.0 and .91, .98), ...
+/// Confidence of legs that show inside of a skirt alone: the share of their joints within 0.03 H is 1.0 of random people
+/// of even seeds, .91 of stripped models, .98 of people of odd seeds.
 const SEEN_INSIDE: f64 = 0.92;
-/// ... of an ankle on a leg without a slim place (1.0 and 1.0 of the two there are, 1.0), ...
+/// Confidence of an ankle on a leg without a slim place: the share within 0.03 H is 1.0 of random people of even seeds,
+/// 1.0 of the two that stripped models have, 1.0 of people of odd seeds.
 const ANKLE_BY_LEG: f64 = 0.91;
-/// ... of what rests on a doubtful reading (.55 and .20, .61), ...
+/// Confidence of what rests on a doubtful reading: the share of such joints within 0.03 H is .55 of random people of
+/// even seeds, .20 of stripped models, .61 of people of odd seeds.
 pub const DOUBTFUL: f64 = 0.4;
-/// ... and of what a ratio gave (.33 and none, .17).
+/// Confidence of what a ratio gave: the share of such joints within 0.03 H is .33 of random people of even seeds, .17 of
+/// those of odd seeds; of stripped models there are none.
 const RATIO: f64 = 0.2;
 
 /// A pair of arms that costs more than this is doubted. Of 60 random people the 56 whose arms lie within 0.06 H cost 4.2 and

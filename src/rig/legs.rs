@@ -12,19 +12,19 @@ const BRIDGE: f64 = 0.03;
 const GAP_STARTS_BELOW: f64 = 0.25;
 /// The gap between the legs lies within this distance of the axis. Seen: ±30 % changes no joint.
 const GAP_OFF_AXIS: f64 = 0.04;
-/// Where legs touch, the figure is thinner than this share of a leg (seen: ±30 % moves joints by under 0.0005 H), ...
+/// Where legs touch, the figure is thinner than this share of a leg. Seen: ±30 % moves joints by under 0.0005 H.
 const TOUCHING_THIN: f64 = 0.6;
-/// ... within this distance of the axis. Seen: ±30 % changes no joint.
+/// Legs that touch do so within this distance of the axis. Seen: ±30 % changes no joint.
 const TOUCH_OFF_AXIS: f64 = 0.01;
 /// A crotch lower or higher than this is none. Seen: at -30 %, joints lie 0.004 H further off, ten more by over 0.06 H.
 const CROTCH_RANGE: (f64, f64) = (0.10, 0.62);
-/// The crotch where none is seen, as a share of the figure's height (seen: ±30 % changes no joint), ...
+/// A crotch that is not seen is put at this share of the figure's height. Seen: ±30 % changes no joint.
 const CROTCH_BY_RATIO: f64 = 0.47;
-/// ... and of the shoulders' height, where those are seen. Seen: ±30 % changes no joint.
+/// A crotch that is not seen is put at this share of the shoulders' height, where those are seen. Seen: ±30 % changes no joint.
 const CROTCH_OF_SHOULDERS: f64 = 0.56;
-/// A run narrower than this is a sliver, no leg (seen: ±30 % moves joints by under 0.0005 H), ...
+/// A run narrower than this is a sliver, no leg. Seen: ±30 % moves joints by under 0.0005 H.
 const LEAST_LEG: f64 = 0.006;
-/// ... and inside of a skirt one narrower than this. Seen: ±30 % moves joints by under 0.0005 H.
+/// Inside of a skirt, a run narrower than this is no leg. Seen: ±30 % moves joints by under 0.0005 H.
 const LEAST_LEG_INSIDE: f64 = 0.02;
 /// Right above a hem a slice fills more than this times what it does so many slices below: above a crotch the thighs go on,
 /// and grow together.
@@ -49,20 +49,20 @@ const SLIM_RANGE: (f64, f64) = (0.08, 0.35);
 /// The ankle joint lies at this share of the slimmest section's height: the section lies above the ankle bones. Seen:
 /// ±30 % moves joints by under 0.0005 H.
 const ANKLE_OF_SLIM: f64 = 0.62;
-/// The ankle where none is seen, as a share of the crotch's height (seen: ±30 % moves joints by under 0.0005 H), ...
+/// An ankle that is not seen is put at this share of the crotch's height. Seen: ±30 % moves joints by under 0.0005 H.
 const ANKLE_BY_RATIO: f64 = 0.10;
-/// ... and the range in which it is believed. Seen: ±30 % moves joints by under 0.0005 H.
+/// An ankle is believed between these shares of the crotch's height. Seen: ±30 % moves joints by under 0.0005 H.
 const ANKLE_RANGE: (f64, f64) = (0.06, 0.22);
 
-/// A leg without a section stands this far from the axis, as a share of the height (seen: ±30 % changes no joint), ...
+/// A leg without a section stands this far from the axis, as a share of the height. Seen: ±30 % changes no joint.
 const LEG_BY_RATIO: f64 = 0.06;
-/// ... and the top of the thigh between these. Seen: ±30 % moves joints by under 0.0005 H.
+/// The top of the thigh lies between these shares of the crotch's height. Seen: ±30 % moves joints by under 0.0005 H.
 const THIGH_RANGE: (f64, f64) = (0.90, 0.99);
 /// The foot stands where its section at this height is. Seen: ±30 % moves toes by up to 0.001 H.
 const SOLE_AT: f64 = 0.02;
-/// The ball of the foot lies at this share of the ankle's height (seen: ±30 % moves toes by up to 0.014 H), ...
+/// The ball of the foot lies at this share of the ankle's height. Seen: ±30 % moves toes by up to 0.014 H.
 const BALL_HEIGHT: f64 = 0.3;
-/// ... and of the way from the ankle to the foot's tip. Seen: ±30 % moves toes by up to 0.026 H.
+/// The ball of the foot lies at this share of the way from the ankle to the foot's tip. Seen: ±30 % moves toes by up to 0.026 H.
 const BALL_AHEAD: f64 = 0.65;
 /// A foot is this much thicker than the slimmest section above it. Seen: ±30 % moves joints by under 0.0005 H.
 const FOOT_WIDENS: f64 = 1.15;

@@ -243,12 +243,12 @@ const THUMB_JOINTS: [f64; 3] = [2.2, 1.55, 0.75];
 /// up to 0.017 H (middle proximal).
 const MITTEN_JOINTS: [f64; 3] = [1.0, 0.55, 0.28];
 
-/// The knuckle lies between these shares of the way from wrist to tip, even if fingers are cut too deep or not deep
-/// enough: a finger's (seen: at -30 %, finger joints lie 0.0009 H further off; at +30 %, finger joints lie 0.0005 H
-/// further off), ...
+/// A finger's knuckle lies between these shares of the way from wrist to tip, even if fingers are cut too deep or not deep
+/// enough. Seen: at -30 %, finger joints lie 0.0009 H further off; at +30 %, finger joints lie 0.0005 H further off.
 const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
 
-/// ... and a thumb's. Seen: ±30 % moves finger joints by under 0.0005 H.
+/// A thumb's knuckle lies between these shares of the way from wrist to tip, however deep it is cut. Seen: ±30 % moves
+/// finger joints by under 0.0005 H.
 const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
 
 /// Rays around a joint reach this many radii of the wrist. Seen: ±30 % changes no finger.

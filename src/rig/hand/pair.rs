@@ -13,10 +13,10 @@ const SYMMETRIC_WITHIN: f64 = 2e-5;
 /// Two hands are alike where every vertex nearer to a wrist than this has a mirror image. Seen: ±30 % changes no joint.
 const HAND_REACH: f64 = 0.2;
 
-/// A hand with this many fingers but no thumb is looked at again ...
+/// A hand with at least this many fingers but no thumb is looked at again.
 const FINGERS_BESIDE_THUMB: usize = 3;
-/// ... from these shares of the forearm before its wrist, which may lie beyond the thumb's root: a wrist that is found is off
-/// by 0.01 H or so, and by more where a palm is as slim as a wrist.
+/// A hand without a thumb is looked at again from these shares of the forearm before its wrist, which may lie beyond the
+/// thumb's root: a wrist that is found is off by 0.01 H or so, and by more where a palm is as slim as a wrist.
 const BEFORE_WRIST: [f64; 3] = [0.1, 0.2, 0.3];
 
 /// Adds the fingers of both hands to the joints that were `found`, and the hands' tips.

@@ -33,14 +33,14 @@ pub(super) struct Finger {
     pub(super) web_distance: f64,
 }
 
-/// A tip stands out by this share of the hand's length, at least (seen: at ±30 %, two fewer of 46 hands with all
-/// fingers) ...
+/// A tip stands out by this share of the hand's length, at least. Seen: at ±30 %, two fewer of 46 hands with all fingers.
 pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
 
-/// A hand is looked for within this many lengths of the forearm (seen: ±30 % changes no finger), ...
+/// A hand is looked for within this many lengths of the forearm. Seen: ±30 % changes no finger.
 const REACH: f64 = 1.5;
 
-/// ... but no less and no more than this, in heights: sleeves hide elbows. Seen: ±30 % changes no finger.
+/// A hand is looked for within no less and no more than this, in heights, whatever the forearm's length: sleeves hide
+/// elbows. Seen: ±30 % changes no finger.
 const REACH_RANGE: (f64, f64) = (0.12, 0.3);
 
 /// What ends within this share of that reach does not go on outside: it belongs to the hand. Seen: at -30 %, two fewer

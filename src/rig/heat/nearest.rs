@@ -10,11 +10,12 @@ use crate::rig::solid::Solid;
 use crate::rig::solid::sides::outward;
 use glam::DVec3;
 
-/// A bone shares a vertex fully up to this ratio of its distance to the least one (baran and Popović, §4: the nearest
-/// bones share a vertex; seen: at 1.3 vertices move up to 0.58 H), ...
+/// A bone shares a vertex fully up to this ratio of its distance to the least one (Baran and Popović, §4: the nearest
+/// bones share a vertex). Seen: at 1.3, vertices move up to 0.58 H.
 const EQUAL: f64 = 1.0 + 1e-4;
-/// ... and not at all from this one on. Between them the share falls off, so that a vertex in the plane of symmetry
-/// keeps both legs alike however it is rounded. Seen: at 1.3, vertices move up to 0.044 H.
+/// A bone does not share a vertex at all from this ratio of its distance to the least one on. Between `EQUAL` and this
+/// the share falls off, so that a vertex in the plane of symmetry keeps both legs alike however it is rounded. Seen: at
+/// 1.3, vertices move up to 0.044 H.
 const UNEQUAL: f64 = 1.0 + 1e-3;
 
 /// A way straight out of the surface counts as so much longer than one straight into it: no bone is so much farther than

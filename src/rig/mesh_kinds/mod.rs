@@ -53,41 +53,41 @@ const DOUBT: f64 = 0.12;
 /// A volume that carries a limb has a far side of its own on this share. Seen: ±30 % changes no mesh.
 const VOLUME_SHARE: f64 = 0.4;
 
-/// A neck is looked for below so many slices from the top (seen: at -30 %, one more mesh misjudged before joints are
-/// known), ...
+/// A neck is looked for below so many slices from the top. Seen: at -30 %, one more mesh misjudged before joints are known.
 const LEAST_HEAD_SLICES: usize = 6;
 
-/// ... where a slice is wider than this times the widest one of the head. Seen: at -30 %, four more meshes misjudged;
-/// at +30 %, one more mesh misjudged before joints are known.
+/// A neck is looked for above a slice that is wider than this times the widest one of the head. Seen: at -30 %, four
+/// more meshes misjudged; at +30 %, one more mesh misjudged before joints are known.
 const SHOULDERS_WIDEN: f64 = 1.35;
 
 /// A head is at least this high. Seen: ±30 % changes no mesh.
 const LEAST_HEAD: f64 = 0.05;
 
 /// What lies within the head begins no further below its chin than this, in lengths of the head: teeth reach below the
-/// chin's height where that is the head joint's (seen: ±30 % changes no mesh), ...
+/// chin's height where that is the head joint's. Seen: ±30 % changes no mesh.
 const TEETH_BELOW: f64 = 0.25;
 
-/// ... and is no larger than this. Seen: at -30 %, two more meshes misjudged.
+/// A part of the face is no larger than this, in lengths of the head. Seen: at -30 %, two more meshes misjudged.
 const MOST_FACE_PART: f64 = 0.8;
 
-/// A head that is a mesh of its own lies above the chin on this share (seen: at +30 %, one more mesh misjudged), ...
+/// A head that is a mesh of its own lies above the chin on at least this share of itself. Seen: at +30 %, one
+/// more mesh misjudged.
 const HEAD_ABOVE: f64 = 0.8;
 
-/// ... over other meshes on less than this (seen: ±30 % changes no mesh), ...
+/// A head that is a mesh of its own lies over other meshes on less than this share. Seen: ±30 % changes no mesh.
 const HEAD_OVER: f64 = 0.3;
 
-/// ... and has a far side of its own on this. Seen: ±30 % changes no mesh.
+/// A head that is a mesh of its own has a far side of its own on at least this share. Seen: ±30 % changes no mesh.
 const HEAD_VOLUME: f64 = 0.6;
 
 /// Such a head, or hair, is or reaches this high, in lengths of the head. Seen: ±30 % changes no mesh.
 const HALF_A_HEAD: f64 = 0.5;
 
-/// Wide cloth, such as a cape, lies over the body on this share (seen: ±30 % changes no mesh), ...
+/// Wide cloth, such as a cape, lies over the body on at least this share. Seen: ±30 % changes no mesh.
 const CLOTH_OVER: f64 = 0.2;
 
-/// ... and has a far side of its own on no more than this: it is an open sheet, and a thing is closed. Seen: ±30 %
-/// changes no mesh.
+/// Wide cloth has a far side of its own on no more than this share: it is an open sheet, and a thing is closed. Seen:
+/// ±30 % changes no mesh.
 const CLOTH_VOLUME: f64 = 0.5;
 
 /// The height of the chin where no neck is seen: 1 - 1 / 7 of a person of seven heads, and a little below.

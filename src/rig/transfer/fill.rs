@@ -10,11 +10,12 @@ use glam::DVec3;
 /// swallows the rest. Seen: ±30 % moves no vertex.
 const EDGE_RANGE: [f64; 2] = [1e-2, 1e4];
 
-/// Smoothing around the filled region (Abdrashitov et al.): steps (seen: ±30 % moves vertices by under 0.0005 H), ...
+/// Smoothing around the filled region takes so many steps (Abdrashitov et al.). Seen: ±30 % moves vertices by under 0.0005 H.
 const SMOOTHING_STEPS: usize = 10;
-/// ... the share of the neighbours in each (Abdrashitov et al.; seen: ±30 % moves vertices by under 0.0005 H), ...
+/// In each step of smoothing, a vertex takes this share of its neighbours' mean (Abdrashitov et al.). Seen: ±30 % moves
+/// vertices by under 0.0005 H.
 const SMOOTHING_SHARE: f64 = 0.2;
-/// ... and rings of vertices beyond the region. Seen: at -30 %, vertices move up to 0.006 H.
+/// Smoothing reaches so many rings of vertices beyond the filled region. Seen: at -30 %, vertices move up to 0.006 H.
 const SMOOTHING_RINGS: usize = 2;
 
 /// How much the two ends of each edge pull at each other, above 0.
@@ -76,9 +77,9 @@ impl EdgeWeights {
 pub(super) struct Fill {
     /// How much each vertex is held to the row of its match, 0 to 1; `None` where it is not asked about.
     pub(super) pulls: Vec<Option<f64>>,
-    /// The vertices that are solved for, ...
+    /// The vertices that are solved for.
     free: Vec<u32>,
-    /// ... and for each vertex its place among them, or `NONE`.
+    /// Each vertex's place among those that are solved for, or `NONE`.
     slots: Vec<u32>,
     /// `None` where there is nothing to do or the system cannot be solved.
     pub(super) factor: Option<Cholesky>,

@@ -23,12 +23,12 @@ use skin::{Body, normals};
 pub use skin::{Skin, Source};
 use std::collections::BTreeMap;
 
-/// A match may be this far away, in diagonals of the garment's box (Abdrashitov et al.) (seen: at -30 %, vertices move
-/// up to 0.003 H; at +30 %, vertices move up to 0.002 H), ...
+/// A match may be this far away, in diagonals of the garment's box (Abdrashitov et al.). Seen: at -30 %, vertices move
+/// up to 0.003 H; at +30 %, vertices move up to 0.002 H.
 const MATCH_DISTANCE: f64 = 0.05;
 
-/// ... but at least and at most this far, in heights: thick soles are still shoes, and what hangs a hand's width away
-/// hangs freely (D20). Seen: ±30 % moves vertices by under 0.0005 H.
+/// A match may be at least and at most this far away, in heights, whatever the garment's size: thick soles are still
+/// shoes, and what hangs a hand's width away hangs freely (D20). Seen: ±30 % moves vertices by under 0.0005 H.
 const MATCH_DISTANCE_RANGE: [f64; 2] = [0.015, 0.05];
 
 /// Matches fade out up to this multiple of the greatest distance. Seen: at -30 %, vertices move up to 0.055 H, nine
