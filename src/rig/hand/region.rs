@@ -1,7 +1,9 @@
 //! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
 
 use super::section::Section;
-use crate::geometry::{NONE, PointTree, SEAM, components, least_costs, marked, merge_tree, neighbours, weld};
+use crate::geometry::{
+    NONE, PointTree, SEAM, by_key, components, least_costs, marked, merge_tree, neighbours, weld,
+};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -123,10 +125,7 @@ impl Region {
 
     /// Joins pieces that do not begin at the wrist to what does, each where it is nearest.
     fn bridge(&mut self, pieces: &[u32], reach: f64) {
-        let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (vertex, &piece) in pieces.iter().enumerate() {
-            members.entry(piece).or_default().push(vertex as u32);
-        }
+        let members = by_key(pieces.iter().copied().zip(0u32..));
         let at = |vertex: u32| self.points[vertex as usize];
         let ends = |&vertex: &u32| at(vertex).distance(self.wrist) < ENDS_WITHIN * reach;
         // Pieces that go on outside are something else: a leg, the ground.
