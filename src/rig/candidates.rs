@@ -4,6 +4,7 @@ use super::FoundJoint;
 use super::arm_curve::Arm;
 use super::legs::{Leg, LegGap};
 use crate::character::Role;
+use crate::character::humanoid::LEFT_LEG;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -56,9 +57,7 @@ impl Candidates {
 
     /// A leg that divides from the other one at a share of the shoulders' height, as likely by itself as `score`.
     pub fn add_leg(&mut self, left: bool, leg: &Leg, score: f64) {
-        use Role::{LeftFoot, LeftLowerLeg, LeftToes, LeftUpperLeg};
-        let roles = [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes];
-        for (role, position) in roles.into_iter().zip([leg.hip, leg.knee, leg.ankle, leg.toes]) {
+        for (role, position) in LEFT_LEG.into_iter().zip([leg.hip, leg.knee, leg.ankle, leg.toes]) {
             self.add(role.on_side(left), position, score);
         }
     }

@@ -17,6 +17,7 @@ use super::legs::{Leg, LegGap, LegLobes, Legs, find_legs, leg};
 use super::solid::branches::branches;
 use super::solid::{Solid, Voxels};
 use super::{FoundJoint, UnitFigure};
+use crate::character::humanoid::{LEFT_ARM, LEFT_LEG};
 use crate::character::{MeshKind, Role};
 use crate::error::{Result, Warning};
 use crate::geometry::ROUNDING;
@@ -540,15 +541,10 @@ impl Search<'_> {
 
     /// Sides that agree become each other's image; sides that do not are doubtful.
     fn settle_sides(&mut self) {
-        use Role::*;
-        const LIMBS: [[Role; 4]; 2] = [
-            [LeftUpperLeg, LeftLowerLeg, LeftFoot, LeftToes],
-            [LeftShoulder, LeftUpperArm, LeftLowerArm, LeftHand],
-        ];
         let image = |p: DVec3| image(p, self.view.axis);
         let given = self.given;
         let is_given = |role: &Role| given.contains_key(role) || given.contains_key(&role.mirrored());
-        for role in LIMBS.into_iter().filter(|limb| !limb.iter().any(is_given)).flatten() {
+        for role in [LEFT_LEG, LEFT_ARM].into_iter().filter(|limb| !limb.iter().any(is_given)).flatten() {
             let other = role.mirrored();
             // Clavicles come later.
             let joint = |role: Role| self.found.joints.get(&role).copied();
@@ -564,7 +560,7 @@ impl Search<'_> {
                 self.put(other, two.position, two.confidence.min(DOUBTFUL));
             }
         }
-        for role in [LeftToes, LeftHand] {
+        for role in [Role::LeftToes, Role::LeftHand] {
             let (one, two) = (self.found.tips[&role], self.found.tips[&role.mirrored()]);
             if one.distance(image(two)) <= AGREE {
                 let middle = 0.5 * (one + image(two));
