@@ -233,8 +233,8 @@ impl Region {
                     (is_cut && is_own(if low > level { a } else { b }))
                         .then(|| self.points[a].lerp(self.points[b], (level - low) / (high - low)))
                 };
-                let ends: Vec<DVec3> = (0..3).filter_map(cut).collect();
-                if let [one, other] = ends[..] {
+                let mut ends = (0..3).filter_map(cut);
+                if let (Some(one), Some(other)) = (ends.next(), ends.next()) {
                     let length = one.distance(other);
                     sum += length * (one + other) / 2.0;
                     weight += length;
