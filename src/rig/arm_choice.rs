@@ -26,7 +26,7 @@ const UNEVEN: f64 = 0.15;
 const UNEVEN_HANDS: f64 = 0.25;
 /// An arm passes a joint that is given within this distance, in heights.
 const PASSES: f64 = 0.02;
-/// What an arm costs at most that passes a given joint by more than `PASSES`: more than no arm does.
+/// What each given joint costs at most that an arm passes by more than `PASSES`, and what each costs a side without an arm.
 const PASSES_BY: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;

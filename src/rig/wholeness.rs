@@ -53,14 +53,14 @@ pub fn heat_would_be_poor(
         *shares.entry((bone, component_of(triangle[0]))).or_default() += share;
         areas[bone] += share;
     }
-    // Connected components that bend with each bone, ...
+    // The connected components that bend with each bone.
     let carried: Vec<BTreeSet<u32>> = (0..bones.len())
         .map(|bone| {
             let of_bone = shares.range((bone, 0)..=(bone, u32::MAX));
             of_bone.filter(|&(_, &share)| share >= CARRYING * areas[bone]).map(|(&(_, c), _)| c).collect()
         })
         .collect();
-    // ... and with any: hair cards, lashes and badges say nothing about the body.
+    // Those that bend with any bone: hair cards, lashes and badges say nothing about the body.
     let body: BTreeSet<u32> = carried.iter().flatten().copied().collect();
 
     // Joints between bones with a surface of their own; where no component bends across one, heat gives each piece weights of
