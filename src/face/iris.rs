@@ -44,8 +44,8 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
     let look = |(column, row): (usize, usize)| {
         let p = view.middle(column, row);
         let towards = ((p.extend(view.depth(column, row)?) - middle) / half).normalize_or_zero();
-        let shade = head.shade(own[view.triangle(column, row)?], p)?;
-        (towards.z > FACING).then_some((towards, shade))
+        let triangle = view.triangle(column, row).filter(|_| towards.z > FACING)?;
+        Some((towards, head.shade(own[triangle], p)?))
     };
     let seen: Vec<(DVec3, f64)> = view.squares().filter_map(look).collect();
     let mut shades: Vec<f64> = seen.iter().map(|&(_, shade)| shade).collect();

@@ -5,11 +5,10 @@ use super::displacement::single;
 use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
-use crate::geometry::distinct;
+use crate::geometry::marked;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::{RestTriangles, Room};
-use crate::shape::placement::renewed;
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
@@ -176,7 +175,7 @@ impl Deformer {
         }
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let changes = |which: usize| given.iter().any(|target| !target.deltas[which].is_empty());
-        let turns = match changes(1) || changes(2) {
+        let turns = match !normals.is_empty() && changes(1) || !tangents.is_empty() && changes(2) {
             true => self.turns(mesh, &*self.view().rest_triangles()?),
             false => Vec::new(),
         };
@@ -225,10 +224,11 @@ impl Deformer {
         let figure = placement.figure;
         let Range { start, end } = self.vertices(mesh);
         let moves: Vec<(u32, Vec3)> = given.iter().flat_map(GivenTarget::moves).collect();
-        let is_moved = |&&(_, delta): &&(u32, Vec3)| delta != Vec3::ZERO;
-        let moved = distinct(moves.iter().filter(is_moved).map(|&(vertex, _)| vertex));
-        let nowhere = Arc::new(vec![DVec3::ZERO; end - start]);
-        let placed = renewed(threads, nowhere, &moved, |vertex| placement.vertex(start + vertex));
+        let moved = moves.iter().filter(|(_, delta)| *delta != Vec3::ZERO);
+        let is_moved = marked(end - start, moved.map(|&(vertex, _)| vertex as usize));
+        let placed = parallel::collect(threads, is_moved.len(), parallel::FEW, |vertex| {
+            if is_moved[vertex] { placement.vertex(start + vertex) } else { DVec3::ZERO }
+        });
         let shift = |(vertex, delta): (u32, Vec3)| {
             if delta == Vec3::ZERO {
                 return Vec3::ZERO;
