@@ -6,7 +6,6 @@
 
 use super::Deformer;
 use super::memo::View;
-use super::stages::Deformation;
 use crate::character::Frame;
 use crate::error::Result;
 use crate::parallel;
@@ -46,7 +45,7 @@ pub fn all(view: &View) -> Result<Displacements> {
         renewed(view.threads(), view.below_head()?, of_head, |vertex| displacement(&placement, vertex));
     let frame = &placement.figure.frame;
     let way = |vertex: usize| frame.to_canonical(vertices[vertex].as_dvec3());
-    let mut corrections = corrections(view, &deformation, way)?;
+    let mut corrections = corrections(view, &placement, way)?;
     let joints = corrections.split_off(vertices.len().min(corrections.len()));
     for (vertex, correction) in Arc::make_mut(&mut vertices).iter_mut().zip(corrections) {
         *vertex += single(frame.to_model(correction));
@@ -56,13 +55,12 @@ pub fn all(view: &View) -> Result<Displacements> {
 
 /// What makes the halves alike: added to the vertices, which go these ways, and then to the joints; canonical frame. Empty where
 /// nothing is symmetric, and in paper mode.
-fn corrections(view: &View, deformation: &Deformation, way: impl Fn(usize) -> DVec3) -> Result<Vec<DVec3>> {
-    if deformation.body.parts().is_none() {
+fn corrections(view: &View, placement: &Placement, way: impl Fn(usize) -> DVec3) -> Result<Vec<DVec3>> {
+    if view.body()?.parts().is_none() {
         return Ok(Vec::new());
     }
     let mirror = view.mirror()?;
     let Some(mirror) = &*mirror else { return Ok(Vec::new()) };
-    let placement = deformation.placement(&deformation.field, view.threads());
     let Figure { positions, joints, .. } = placement.figure;
     let mut all = mirror.corrections(|point| match point.checked_sub(positions.len()) {
         Some(joint) => placement.joint(joint) - joints[joint],
@@ -126,10 +124,9 @@ impl Deformer {
     pub fn field_positions(&self) -> Vec<DVec3> {
         let placement = self.placement();
         let mut positions = placement.all_vertices();
-        let deformation = &self.deformation;
-        let whole = deformation.placement(&deformation.field, 1);
+        let whole = self.deformation.placement(&self.deformation.field, 1);
         let way = |vertex: usize| whole.vertex(vertex) - placement.figure.positions[vertex];
-        let corrections = corrections(&self.view(), deformation, way).unwrap_or_default();
+        let corrections = corrections(&self.view(), &whole, way).unwrap_or_default();
         for (p, correction) in positions.iter_mut().zip(corrections) {
             *p += self.field.finish.share() * correction;
         }
