@@ -23,8 +23,8 @@ const BACK: (f64, f64, f64) = (0.09, 0.20, 0.15);
 const TRUNK: (f64, f64) = (-0.305, -0.025);
 /// The occiput ends where the head is less deep than this part of what it is at [`DEEPEST`].
 const OCCIPUT: f64 = 0.9;
-/// What is read of a head is rounded to 2^-30 head lengths, so that one that is only moved has the same, to the bit.
-pub const ROUNDING: f64 = (1u64 << 30) as f64;
+/// See [`rounded`].
+const ROUNDING: f64 = (1u64 << 30) as f64;
 
 /// What an outline is measured on: the middle of a figure, its vertices numbered anew.
 #[derive(Clone, Debug, Default)]
@@ -116,6 +116,7 @@ impl Outline {
     }
 }
 
-fn rounded(depth: f64) -> f64 {
-    (depth * ROUNDING).round() / ROUNDING
+/// A number that is read of a head, to 2^-30 head lengths: a head that is only moved has the same, to the bit.
+pub fn rounded(number: f64) -> f64 {
+    (number * ROUNDING).round() / ROUNDING
 }

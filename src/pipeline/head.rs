@@ -4,7 +4,7 @@ use super::memo::View;
 use crate::character::MeshKind;
 use crate::error::{Result, Warning};
 use crate::face::head::HeadFrame;
-use crate::face::outline::{Outline, ROUNDING};
+use crate::face::outline::{Outline, rounded};
 use crate::face::rows::{FaceAim, Rows};
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
@@ -84,7 +84,7 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let field = body.with_face(shape);
     let place = head_map(&measured, &field, frame);
     // A head that is only moved or made larger has the same face, to the bit.
-    let face = face.mapped(|p| (place(p) * ROUNDING).round() / ROUNDING);
+    let face = face.mapped(|p| place(p).to_array().map(rounded).into());
     let (eyes, head) = match view.style() {
         Style::Shape(shape) => (
             shape.face.map(|face| (face.eye_size, face.eye_height)),
