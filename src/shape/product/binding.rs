@@ -2,7 +2,7 @@
 
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, thumb};
-use super::pieces::{Attachment, Piece, Pieces, touching};
+use super::pieces::{Attachment, Piece, PieceSources, Pieces, touching};
 use super::profile::chains::arm_share;
 use super::profile::skirts::skirt_vertices;
 use super::weights::part_weights;
@@ -119,8 +119,16 @@ pub fn part_bindings(
     let members = members_of_components(figure, weld);
     let part = &mut progress.part(0.05, 0.8);
     let (weights, head_only) = part_weights(figure, anatomy, weld, &members, threads, part)?;
-    let Pieces { mut attachments, pieces, of_joints, .. } =
-        Pieces::of(figure, anatomy, skeleton, weld, &members, &head_only, &weights);
+    let sources = PieceSources {
+        figure,
+        anatomy,
+        skeleton,
+        weld,
+        members: &members,
+        head_only: &head_only,
+        weights: &weights,
+    };
+    let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
     for (vertex, attachment) in attachments.iter_mut().enumerate() {
         let share = figure.weight_of(vertex, |role| is_of_thumb(figure, role)) as f32;
         if share > 0.0 && *attachment == Attachment::Plain {

@@ -53,15 +53,8 @@ pub struct Piece {
     pub weights: PartWeights,
 }
 
-/// The pieces of a figure, and what they are found by.
-pub struct Pieces<'a> {
-    figure: &'a Figure,
-    anatomy: &'a Anatomy,
-    skeleton: &'a Skeleton,
-    weld: &'a Weld,
-    members: &'a [Vec<u32>],
-    head_only: &'a [bool],
-    weights: &'a [PartWeights],
+/// The pieces of a figure.
+pub struct Pieces {
     /// One for each vertex.
     pub attachments: Vec<Attachment>,
     /// The pieces that [`Attachment::Piece`] speaks of.
@@ -70,43 +63,67 @@ pub struct Pieces<'a> {
     pub of_joints: Vec<Option<usize>>,
 }
 
-impl<'a> Pieces<'a> {
-    /// Finds the pieces of `figure`.
-    ///
-    /// - `members`: the vertices of each connected component. `head_only`: whether the head alone moves a vertex.
-    /// - `weights`: each vertex's weights to the parts.
-    pub fn of(
-        figure: &'a Figure,
-        anatomy: &'a Anatomy,
-        skeleton: &'a Skeleton,
-        weld: &'a Weld,
-        members: &'a [Vec<u32>],
-        head_only: &'a [bool],
-        weights: &'a [PartWeights],
-    ) -> Self {
-        let mut pieces = Self {
-            figure,
-            anatomy,
-            skeleton,
-            weld,
-            members,
-            head_only,
-            weights,
-            attachments: vec![Attachment::Plain; figure.positions.len()],
-            pieces: Vec::new(),
-            of_joints: Vec::new(),
+/// What the pieces of a figure are found by.
+pub struct PieceSources<'a> {
+    /// The figure.
+    pub figure: &'a Figure,
+    /// What was measured of it.
+    pub anatomy: &'a Anatomy,
+    /// How its joints hang from each other.
+    pub skeleton: &'a Skeleton,
+    /// Its vertices by position.
+    pub weld: &'a Weld,
+    /// The vertices of each connected component.
+    pub members: &'a [Vec<u32>],
+    /// Whether the head alone moves a vertex.
+    pub head_only: &'a [bool],
+    /// Each vertex's weights to the parts.
+    pub weights: &'a [PartWeights],
+}
+
+impl PieceSources<'_> {
+    /// The least box around `members`.
+    fn bounds(&self, members: &[u32]) -> Bounds {
+        bounds(members.iter().map(|&vertex| self.figure.positions[vertex as usize]))
+    }
+
+    /// True for what trunk or limbs move and their bones do not pass.
+    fn lies_beside_bones(&self, members: &[u32]) -> bool {
+        let Self { figure, anatomy, .. } = self;
+        let joint = figure.main_joint[members[0] as usize];
+        let Some(role) = joint.and_then(|joint| figure.joint_roles[joint as usize]) else { return false };
+        let (low, high) = self.bounds(members);
+        let middle = (low + high) / 2.0;
+        let part = Part::of(role);
+        let on_bone = |limb: &Limb| match limb.parts.iter().position(|&of_limb| of_limb == part as usize) {
+            Some(0) => Some(foot(middle, limb.root, limb.middle).0),
+            Some(1) => Some(foot(middle, limb.middle, limb.end).0),
+            _ => None,
         };
-        pieces.add_hats();
-        pieces.add_carried();
-        pieces.add_rigid();
-        pieces.add_small();
+        let near = match part {
+            Part::Torso => Some(DVec3::new(anatomy.middle_x, middle.y, anatomy.centre_z(middle.y).0)),
+            _ => anatomy.limbs.iter().find_map(on_bone),
+        };
+        near.is_some_and(|near| near.clamp(low, high) != near)
+    }
+}
+
+impl Pieces {
+    /// Finds the pieces of a figure by `sources`.
+    pub fn of(sources: &PieceSources) -> Self {
+        let attachments = vec![Attachment::Plain; sources.figure.positions.len()];
+        let mut pieces = Self { attachments, pieces: Vec::new(), of_joints: Vec::new() };
+        pieces.add_hats(sources);
+        pieces.add_carried(sources);
+        pieces.add_rigid(sources);
+        pieces.add_small(sources);
         pieces
     }
 
     /// Makes one piece of `members`, of which `places` are one at each place, as how often seams repeat one must not matter; held
     /// at `anchor`, which the parts move by `weights`.
-    fn add(&mut self, members: &[u32], places: &[u32], anchor: DVec3, weights: PartWeights) {
-        let positions = || places.iter().map(|&vertex| self.figure.positions[vertex as usize]);
+    fn add(&mut self, figure: &Figure, members: &[u32], places: &[u32], anchor: DVec3, weights: PartWeights) {
+        let positions = || places.iter().map(|&vertex| figure.positions[vertex as usize]);
         let middle = positions().sum::<DVec3>() / places.len() as f64;
         let spread =
             positions().map(|p| outer(p - middle, p - middle)).fold(DMat3::ZERO, |sum, one| sum + one);
@@ -119,22 +136,18 @@ impl<'a> Pieces<'a> {
     }
 
     /// True for what the head does not move alone and is no other piece.
-    fn is_loose(&self, vertex: u32) -> bool {
-        !self.head_only[vertex as usize] && self.attachments[vertex as usize] == Attachment::Plain
-    }
-
-    /// The least box around `members`.
-    fn bounds(&self, members: &[u32]) -> Bounds {
-        bounds(members.iter().map(|&vertex| self.figure.positions[vertex as usize]))
+    fn is_loose(&self, sources: &PieceSources, vertex: u32) -> bool {
+        !sources.head_only[vertex as usize] && self.attachments[vertex as usize] == Attachment::Plain
     }
 
     /// Hats and glasses take the face map as a whole.
-    fn add_hats(&mut self) {
-        let is_of_head = |members: &&Vec<u32>| members.iter().all(|&vertex| self.head_only[vertex as usize]);
-        for members in self.members.iter().filter(is_of_head) {
-            let (low, high) = self.bounds(members);
+    fn add_hats(&mut self, sources: &PieceSources) {
+        let &PieceSources { figure, members, head_only, .. } = sources;
+        let is_of_head = |members: &&Vec<u32>| members.iter().all(|&vertex| head_only[vertex as usize]);
+        for members in members.iter().filter(is_of_head) {
+            let (low, high) = sources.bounds(members);
             for &vertex in members {
-                if self.figure.kind(vertex as usize) == MeshKind::Accessory {
+                if figure.kind(vertex as usize) == MeshKind::Accessory {
                     self.attachments[vertex as usize] = Attachment::OnFace((low + high) / 2.0);
                 }
             }
@@ -143,8 +156,8 @@ impl<'a> Pieces<'a> {
 
     /// Things carried on the body (a bag, a machine arm, a tail of plates): what hangs from one joint without a role and is
     /// made of rigid components for the greater part keeps its shape as one.
-    fn add_carried(&mut self) {
-        let Self { figure, skeleton, weld, members, head_only, .. } = *self;
+    fn add_carried(&mut self, sources: &PieceSources) {
+        let &PieceSources { figure, skeleton, weld, members, head_only, .. } = sources;
         let joint_count = figure.joints.len();
         let top = uppermost_without_role(figure, skeleton);
         let main = |vertex: u32| figure.main_joint[vertex as usize].map(|joint| joint as usize);
@@ -176,11 +189,11 @@ impl<'a> Pieces<'a> {
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             piece_of_top[joint] = Some(self.pieces.len());
             let places = once(weld, &carried[joint]);
-            self.add(&carried[joint], &places, figure.joints[joint], Part::of(role).alone());
+            self.add(figure, &carried[joint], &places, figure.joints[joint], Part::of(role).alone());
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
         let piece_of = |vertex: u32| main(vertex).and_then(|joint| self.of_joints[joint]);
-        let strands = strands(members, &piece_of, |vertex| self.is_loose(vertex));
+        let strands = strands(members, &piece_of, |vertex| self.is_loose(sources, vertex));
         if strands.is_empty() {
             return;
         }
@@ -196,9 +209,9 @@ impl<'a> Pieces<'a> {
 
     /// Bags, swords, plates that hang rigidly from the body: components whose boxes touch and whose weights are the same keep
     /// their shape as one, held where they are nearest to the body.
-    fn add_rigid(&mut self) {
-        let figure = self.figure;
-        let things = self.rigid();
+    fn add_rigid(&mut self, sources: &PieceSources) {
+        let figure = sources.figure;
+        let things = self.rigid(sources);
         if things.is_empty() {
             return;
         }
@@ -210,7 +223,7 @@ impl<'a> Pieces<'a> {
         let mut near = Vec::new();
         let place = |vertex: u32| figure.positions[vertex as usize];
         for all in things {
-            let places = once(self.weld, &all);
+            let places = once(sources.weld, &all);
             let mut distance = |vertex: u32| {
                 tree.nearest(place(vertex), 1, f64::INFINITY, &mut near);
                 near.first().map_or(0.0, |near| near.distance())
@@ -220,14 +233,14 @@ impl<'a> Pieces<'a> {
             let is_held = |&&(_, distance): &&(u32, f64)| distance <= least + TOUCHING * figure.height();
             let held: Vec<u32> = away.iter().filter(is_held).map(|&(vertex, _)| vertex).collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
-            self.add(&all, &places, anchor, mean_weights(self.weights, &held));
+            self.add(figure, &all, &places, anchor, mean_weights(sources.weights, &held));
         }
     }
 
     /// The vertices of each thing that is made of rigid components which touch and weigh the same: of accessories, and of what
     /// lies beside the bones of a body that bends.
-    fn rigid(&self) -> Vec<Vec<u32>> {
-        let Self { figure, members, .. } = *self;
+    fn rigid(&self, sources: &PieceSources) -> Vec<Vec<u32>> {
+        let &PieceSources { figure, members, .. } = sources;
         let row = |vertex: u32| &figure.role_weights[vertex as usize];
         let is_rigid = |members: &[u32]| members.iter().all(|&vertex| row(vertex) == row(members[0]));
         let all_of = |members: &[u32], kind: MeshKind| {
@@ -236,10 +249,10 @@ impl<'a> Pieces<'a> {
         let bends = members.iter().max_by_key(|members| members.len()).is_some_and(|most| !is_rigid(most));
         let is_thing = |members: &&Vec<u32>| {
             members.len() >= 3
-                && members.iter().all(|&vertex| self.is_loose(vertex))
+                && members.iter().all(|&vertex| self.is_loose(sources, vertex))
                 && is_rigid(members)
                 && (all_of(members, MeshKind::Accessory)
-                    || bends && all_of(members, MeshKind::Body) && self.lies_beside_bones(members))
+                    || bends && all_of(members, MeshKind::Body) && sources.lies_beside_bones(members))
         };
         let components: Vec<&Vec<u32>> = members.iter().filter(is_thing).collect();
         let is_alike = |one: usize, other: usize| row(components[one][0]) == row(components[other][0]);
@@ -247,36 +260,18 @@ impl<'a> Pieces<'a> {
     }
 
     /// Buttons, buckles, badges: small loose components keep their shape.
-    fn add_small(&mut self) {
-        let limit = SMALL_PIECE * self.figure.height();
-        for members in self.members.iter().filter(|members| members.len() >= 3) {
-            let (low, high) = self.bounds(members);
-            if (high - low).max_element() > limit || !members.iter().all(|&vertex| self.is_loose(vertex)) {
+    fn add_small(&mut self, sources: &PieceSources) {
+        let &PieceSources { figure, weld, weights, .. } = sources;
+        let limit = SMALL_PIECE * figure.height();
+        for members in sources.members.iter().filter(|members| members.len() >= 3) {
+            let (low, high) = sources.bounds(members);
+            let is_loose = members.iter().all(|&vertex| self.is_loose(sources, vertex));
+            if (high - low).max_element() > limit || !is_loose {
                 continue;
             }
-            let places = once(self.weld, members);
-            self.add(members, &places, (low + high) / 2.0, mean_weights(self.weights, &places));
+            let places = once(weld, members);
+            self.add(figure, members, &places, (low + high) / 2.0, mean_weights(weights, &places));
         }
-    }
-
-    /// True for what trunk or limbs move and their bones do not pass.
-    fn lies_beside_bones(&self, members: &[u32]) -> bool {
-        let Self { figure, anatomy, .. } = self;
-        let joint = figure.main_joint[members[0] as usize];
-        let Some(role) = joint.and_then(|joint| figure.joint_roles[joint as usize]) else { return false };
-        let (low, high) = self.bounds(members);
-        let middle = (low + high) / 2.0;
-        let part = Part::of(role);
-        let on_bone = |limb: &Limb| match limb.parts.iter().position(|&of_limb| of_limb == part as usize) {
-            Some(0) => Some(foot(middle, limb.root, limb.middle).0),
-            Some(1) => Some(foot(middle, limb.middle, limb.end).0),
-            _ => None,
-        };
-        let near = match part {
-            Part::Torso => Some(DVec3::new(anatomy.middle_x, middle.y, anatomy.centre_z(middle.y).0)),
-            _ => anatomy.limbs.iter().find_map(on_bone),
-        };
-        near.is_some_and(|near| near.clamp(low, high) != near)
     }
 }
 
