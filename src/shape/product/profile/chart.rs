@@ -146,11 +146,11 @@ impl Chart {
         }
         let planes = frame.leg_planes();
         for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
-            let height = t * frame.leg_length();
+            let height = t * frame.leg_length;
             if let Some(leg) = &mut now.leg {
                 let [mut middle, mut half] = [DVec2::ZERO; 2];
                 for (side, part) in [Part::LeftUpperLeg, Part::RightUpperLeg].into_iter().enumerate() {
-                    let sign = DVec2::new(frame.sign(2 + side), 1.0);
+                    let sign = DVec2::new(frame.signs[2 + side], 1.0);
                     let from = [
                         sign * DVec2::new(leg.outward[at], leg.forward[at]),
                         DVec2::new(leg.breadth[at], leg.depth[at]),
@@ -183,7 +183,7 @@ impl Chart {
                 let mut half = DVec2::ZERO;
                 for (side, part, planes, line) in &mut arms {
                     let middle = DVec2::new(line[0][at], line[1][at]) / length;
-                    let to = slice(planes, t * frame.arm_length(*side), [middle, from], *part, false);
+                    let to = slice(planes, t * frame.arm_lengths[*side], [middle, from], *part, false);
                     (line[0][at], line[1][at]) = (length * to[0]).into();
                     half += share * to[1];
                 }
@@ -270,7 +270,7 @@ impl<'a> Grows<'a> {
         let frame = self.frame;
         let mut straight = own.clone();
         for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
-            let y = frame.heights.crotch - t * frame.leg_length();
+            let y = frame.heights.crotch - t * frame.leg_length;
             let bones = (2..4).map(|limb| on_limb(&frame.limbs[limb], y).z).sum::<f64>() / 2.0;
             let bones = (bones - frame.hips.z) / frame.head_length();
             let flat = 1.0 + strengths[at] * ((self.lengths[1] / self.leg[at]).min(1.0) - 1.0);
@@ -305,14 +305,14 @@ impl<'a> Grows<'a> {
                 torso.forward[at] = placed(&frame.torso_planes(), height, torso.forward[at]);
             }
         }
-        let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length());
+        let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length);
         let planes = frame.leg_planes();
         if let Some(leg) = &mut now.leg {
             for (at, &height) in heights.iter().enumerate() {
                 leg.breadth[at] *= self.leg[at];
                 leg.depth[at] *= self.leg[at];
                 let side = |side: usize| {
-                    let sign = frame.sign(2 + side);
+                    let sign = frame.signs[2 + side];
                     let p =
                         planes.point(height, length * DVec2::new(sign * leg.outward[at], leg.forward[at]));
                     let limb = &frame.limbs[2 + side];
@@ -338,7 +338,7 @@ impl<'a> Grows<'a> {
         now.hand = own.hand.map(|hand| hand.map(|size| size * scales.hand / grown));
         now.foot = own.foot.map(|[toe, heel, breadth, outward, height]| {
             let ankle = |place: &dyn Fn(usize) -> DVec3| {
-                (2..4).map(|leg| frame.sign(leg) * (place(leg).x - frame.middle_x)).sum::<f64>() / 2.0
+                (2..4).map(|leg| frame.signs[leg] * (place(leg).x - frame.middle_x)).sum::<f64>() / 2.0
             };
             let before = ankle(&|leg| frame.limbs[leg].end) / length;
             let after =

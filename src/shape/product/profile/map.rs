@@ -183,7 +183,7 @@ impl BodyMap {
 
     fn leg<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let at = self.leg.at(p.y);
-        let sign = self.frame.sign(2 + side);
+        let sign = self.frame.signs[2 + side];
         let [outward, row @ ..] = at.values();
         let middle = self.frame.middle_x + sign * outward;
         level(p, [middle, middle + sign * self.spread], row, || {
@@ -194,8 +194,8 @@ impl BodyMap {
 
     /// Near the crotch a leg's map is the torso's, so that hips agree whatever the weights say.
     fn leg_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
-        let leg_length = self.frame.leg_length();
-        let t = (self.frame.heights.crotch - p.y) / leg_length;
+        let BodyFrame { heights, leg_length, .. } = self.frame;
+        let t = (heights.crotch - p.y) / leg_length;
         let (share, slope) = smoothstep_slope((t - LEG_FADE.0) / (LEG_FADE.1 - LEG_FADE.0));
         let slope = DVec3::NEG_Y * (slope / (LEG_FADE.1 - LEG_FADE.0) / leg_length);
         mix(share, slope, || self.torso(p), || self.leg(side, p))
@@ -221,7 +221,7 @@ impl BodyMap {
         let planes = frame.arm_planes(side)?;
         let (profile, middles) = (own.arm.as_ref()?, lines.arm_middles[side].as_ref()?);
         let head = frame.head_length();
-        let length = frame.arm_length(side);
+        let length = frame.arm_lengths[side];
         let places = stations(ARM_STATIONS);
         let hand = own.hand.map(|hand| hand.map(|size| size * head));
         let hand_length = hand.map_or(0.5 * length, |hand| hand[0]);
@@ -408,7 +408,7 @@ fn level_tables(
 ) -> (TorsoTable, LegTable) {
     let length = frame.head_length();
     let planes = frame.torso_planes();
-    let (torso_length, leg_length) = (frame.torso_length(), frame.leg_length());
+    let (torso_length, leg_length) = (frame.torso_length(), frame.leg_length);
     let (crotch, shoulder_line, chin) =
         (frame.heights.crotch, frame.heights.shoulder_line, frame.heights.chin);
     let torso_places = stations(TORSO_STATIONS);

@@ -50,6 +50,12 @@ pub struct BodyFrame {
     pub heights: Heights,
     /// Left arm, right arm, left leg, right leg; legs begin at the height of the crotch.
     pub limbs: [Limb; 4],
+    /// On which side of the middle each limb is: in left-handed axes the left is at negative x.
+    pub signs: [f64; 4],
+    /// From the crotch to the ankles, model units.
+    pub leg_length: f64,
+    /// Shoulder joint to wrist, straight, model units.
+    pub arm_lengths: [f64; 2],
     /// The middle between the hip joints.
     pub hips: DVec3,
     /// The middle between the shoulder joints.
@@ -74,19 +80,19 @@ impl BodyFrame {
             let way = end? - root?;
             (way.length() > 0.0).then_some([root?, way])
         };
+        let heights = anatomy.landmarks.heights;
+        let sign = |limb: usize| if limbs[limb].end.x < limbs[limb ^ 1].end.x { -1.0 } else { 1.0 };
         Self {
-            heights: anatomy.landmarks.heights,
+            heights,
             limbs,
+            signs: [0, 1, 2, 3].map(sign),
+            leg_length: heights.crotch - (limbs[2].end.y + limbs[3].end.y) / 2.0,
+            arm_lengths: [0, 1].map(|side| limbs[side].root.distance(limbs[side].end)),
             thumbs: [thumb_of(0), thumb_of(1)],
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
         }
-    }
-
-    /// On which side of the middle limb number `limb` is: in left-handed axes the left is at negative x.
-    pub fn sign(&self, limb: usize) -> f64 {
-        if self.limbs[limb].end.x < self.limbs[limb ^ 1].end.x { -1.0 } else { 1.0 }
     }
 
     /// L: chin to crown.
@@ -129,15 +135,10 @@ impl BodyFrame {
         self.heights.shoulder_line - self.heights.crotch
     }
 
-    /// From the crotch to the ankles, model units.
-    pub fn leg_length(&self) -> f64 {
-        self.heights.crotch - (self.limbs[2].end.y + self.limbs[3].end.y) / 2.0
-    }
-
     /// A number for each slice of a leg: `upper` above the knee, `lower` from there on.
     pub fn leg_row(&self, [upper, lower]: [f64; 2]) -> Row {
         let knees = (self.limbs[2].middle.y + self.limbs[3].middle.y) / 2.0;
-        let knee = (self.heights.crotch - knees) / self.leg_length();
+        let knee = (self.heights.crotch - knees) / self.leg_length;
         stations(LEG_STATIONS).map(|t| if t < knee { upper } else { lower })
     }
 
@@ -147,11 +148,6 @@ impl BodyFrame {
         let to_wrist: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
         let elbow = to_elbow / (to_elbow + to_wrist);
         stations(ARM_STATIONS).map(|t| if t < elbow { upper } else { lower })
-    }
-
-    /// Shoulder joint to wrist, straight, model units.
-    pub fn arm_length(&self, side: usize) -> f64 {
-        self.limbs[side].root.distance(self.limbs[side].end)
     }
 }
 
@@ -217,7 +213,7 @@ pub fn measure_profile(
         neck,
         shoulder: (0..2).map(|side| (frame.limbs[side].root.x - frame.middle_x).abs()).sum::<f64>()
             / (2.0 * length),
-        arm_length: (frame.arm_length(0) + frame.arm_length(1)) / (2.0 * length),
+        arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
     (profile.sound(), BodyLines { arm_middles, hand_droops })
 }
@@ -247,7 +243,7 @@ impl Body<'_> {
     /// Whether an outline reaches further over the middle than that of limb number `limb`, a leg, does.
     pub(super) fn is_over(&self, limb: usize, outline: &Outline) -> bool {
         let (low, high) = outline.breadth();
-        (if self.frame.sign(limb) > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
+        (if self.frame.signs[limb] > 0.0 { -low } else { high }) > OVER_MIDDLE * self.length
     }
 
     /// Middle across, middle in depth, half breadth, half depth of what `counts` of each cut, in head lengths; see
@@ -283,11 +279,11 @@ impl Body<'_> {
 
     fn legs(&self) -> (Option<LegProfile>, Option<SkirtProfile>) {
         let planes = self.frame.leg_planes();
-        let heights = stations(LEG_STATIONS).map(|t| t * self.frame.leg_length());
+        let heights = stations(LEG_STATIONS).map(|t| t * self.frame.leg_length);
         let cuts = self.cut(Chain::Trunk, &planes, &heights);
         let mut sides: Vec<[Row; 4]> = Vec::new();
         for side in 2..4 {
-            let sign = self.frame.sign(side);
+            let sign = self.frame.signs[side];
             let limb = &self.frame.limbs[side];
             if bend(limb) > BENT * limb.root.distance(limb.end) {
                 continue;
@@ -323,7 +319,7 @@ impl Body<'_> {
         let mut middles = [None, None];
         for (side, middle) in middles.iter_mut().enumerate() {
             let Some(planes) = self.frame.arm_planes(side) else { continue };
-            let length = self.frame.arm_length(side);
+            let length = self.frame.arm_lengths[side];
             let heights = stations(ARM_STATIONS).map(|t| t * length);
             let elbow = planes.locate(self.frame.limbs[side].middle);
             let cuts = self.cut(Chain::Arm(side), &planes, &heights);
@@ -398,7 +394,7 @@ impl Body<'_> {
         let sides: Vec<[f64; 5]> = (2..4)
             .filter_map(|side| {
                 let limb = &self.frame.limbs[side];
-                let sign = self.frame.sign(side);
+                let sign = self.frame.signs[side];
                 let under = limb.end.y - BEYOND * self.length;
                 let points: Vec<DVec3> = places
                     .iter()

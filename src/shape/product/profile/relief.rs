@@ -133,19 +133,16 @@ impl Relief {
             {
                 let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
                 let bound = f64::from(weights[first] + weights[first + 1]);
-                let t = (frame.heights.crotch - p.y) / frame.leg_length();
+                let t = (frame.heights.crotch - p.y) / frame.leg_length;
                 let (share, slope) = smoothstep_slope(t / 0.22);
                 if bound * share > 0.0 {
-                    add(
-                        bound * share,
-                        DVec3::NEG_Y * (bound * slope / 0.22 / frame.leg_length()),
-                        map.shift(p),
-                    );
+                    let slope = DVec3::NEG_Y * (bound * slope / 0.22 / frame.leg_length);
+                    add(bound * share, slope, map.shift(p));
                 }
             }
             if let Some(map) = &limbs[2 + side] {
                 let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
-                let length = frame.arm_length(side);
+                let length = frame.arm_lengths[side];
                 let t = map.planes.locate(p).0 / length;
                 let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
                 let (end, end_slope) = smoothstep_slope((t - 0.98) / 0.12);
@@ -163,7 +160,7 @@ impl Relief {
     fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
         let torso_length = self.frame.torso_length();
         let t = (y - self.frame.heights.crotch) / torso_length;
-        let to_leg = self.frame.leg_length() / torso_length;
+        let to_leg = self.frame.leg_length / torso_length;
         let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
         let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
         let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
@@ -192,7 +189,7 @@ impl Relief {
 impl Body<'_> {
     fn torso_reaches(&self) -> Option<RadiusMap> {
         let planes = self.frame.torso_planes();
-        let ends = (-TORSO_BOTTOM * self.frame.leg_length(), self.frame.torso_length());
+        let ends = (-TORSO_BOTTOM * self.frame.leg_length, self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
         let bone = |height: f64| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0));
         let mut map = self.reaches(Chain::Trunk, planes, ends, bone)?;
@@ -201,7 +198,7 @@ impl Body<'_> {
     }
 
     fn leg_reaches(&self, side: usize) -> Option<RadiusMap> {
-        let length = self.frame.leg_length();
+        let length = self.frame.leg_length;
         let ends = (LEG_ROWS.0 * length, LEG_ROWS.1 * length);
         let bone = |height: f64| self.frame.leg_bone(2 + side, height);
         self.reaches(Chain::Leg(side), self.frame.leg_planes(), ends, bone)
@@ -209,7 +206,7 @@ impl Body<'_> {
 
     fn arm_reaches(&self, side: usize) -> Option<RadiusMap> {
         let planes = self.frame.arm_planes(side)?;
-        let length = self.frame.arm_length(side);
+        let length = self.frame.arm_lengths[side];
         let ends = (ARM_ROWS.0 * length, ARM_ROWS.1 * length);
         let elbow = planes.locate(self.frame.limbs[side].middle);
         self.reaches(Chain::Forearm(side), planes, ends, |height| on_bones(elbow, length, height)[0])

@@ -19,7 +19,7 @@ const HEIGHTS: [f64; 6] = [FORK, 0.2, 0.35, 0.5, 0.65, 0.8];
 pub fn skirt_vertices(figure: &Figure, anatomy: &Anatomy, weld: &Weld) -> Vec<bool> {
     let frame = BodyFrame::of(figure, anatomy);
     let crotch = frame.heights.crotch;
-    let height = |t: f64| crotch - t * frame.leg_length();
+    let height = |t: f64| crotch - t * frame.leg_length;
     let firsts = weld.first_vertices();
     let place = |welded: usize| figure.positions[firsts[welded] as usize];
     let (fork, reach) = (height(FORK), SKIRT_OVER_MIDDLE * frame.head_length());
