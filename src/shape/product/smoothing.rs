@@ -272,7 +272,7 @@ fn layer_steps(
         ordered = parallel::collect(threads, points.len(), parallel::FEW_RAYS, |slot| {
             let mut sum = [0.0; PART_COUNT];
             let mut total = 0.0;
-            for &(other, weight) in &layers[slot] {
+            for &(other, weight) in layers[slot].iter().filter(|near| near.1 != 0.0) {
                 add(&mut sum, &ordered[other as usize], weight);
                 total += weight;
             }

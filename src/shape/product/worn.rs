@@ -131,10 +131,13 @@ impl Worn {
         let rims = rims(&body, weld);
         let outside = Outside::new(&figure.positions, &body, &rims, weld, outwards, None);
         // By number, so that the order of a triangle's corners, which a mirrored mesh may have turned, changes nothing.
-        let placed = |&vertex: &u32| (weld.representative[vertex as usize], vertex);
-        let mut firsts = distinct(cloth.iter().flatten().map(placed));
-        firsts.dedup_by_key(|&mut (place, _)| place);
-        let (places, vertices): (Vec<u32>, Vec<u32>) = firsts.into_iter().unzip();
+        let mut first = vec![NONE; weld.count];
+        for &vertex in cloth.iter().flatten() {
+            let first = &mut first[weld.representative[vertex as usize] as usize];
+            *first = vertex.min(*first);
+        }
+        let firsts = (0..).zip(first).filter(|&(_, vertex)| vertex != NONE);
+        let (places, vertices): (Vec<u32>, Vec<u32>) = firsts.unzip();
         let index_of = slots(weld.count, &places);
         let triangles: Vec<[u32; 3]> = cloth
             .iter()

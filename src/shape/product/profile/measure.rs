@@ -11,7 +11,7 @@ use super::{
 use crate::character::Role;
 use crate::geometry::slice::{Outline, Planes, slices};
 use crate::geometry::weld::Weld;
-use crate::geometry::{mean, range};
+use crate::geometry::{mean, range, upper_median};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
@@ -194,7 +194,10 @@ pub fn measure_profile(
     threads: usize,
 ) -> (Profile, BodyLines) {
     let body = Body { figure, positions, chains, weld, frame, length: frame.head_length() };
-    let trunk = || (body.torso(), body.legs(), body.neck());
+    let trunk = || {
+        let triangles = body.triangles(Chain::Trunk);
+        (body.torso(&triangles), body.legs(&triangles), body.neck(&triangles))
+    };
     let limbs = || {
         // One vertex at each place: quantiles must not depend on how often seams repeat it.
         let places = weld.first_vertices();
@@ -235,9 +238,14 @@ impl Body<'_> {
         if self.positions.len() < parallel::FEW { 1 } else { threads }
     }
 
-    /// What `planes` at `heights` cut out of the triangles, of the body and its clothes, that are of `chain`.
-    pub(super) fn cut(&self, chain: Chain, planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
-        slices(self.positions, &self.chains.triangles(self.figure, chain), self.weld, planes, heights)
+    /// Triangles of the body and its clothes that are of `chain`.
+    pub(super) fn triangles(&self, chain: Chain) -> Vec<[u32; 3]> {
+        self.chains.triangles(self.figure, chain)
+    }
+
+    /// What `planes` at `heights` cut out of `triangles`.
+    pub(super) fn cut(&self, triangles: &[[u32; 3]], planes: &Planes, heights: &[f64]) -> Vec<Vec<Outline>> {
+        slices(self.positions, triangles, self.weld, planes, heights)
     }
 
     /// Whether an outline reaches further over the middle than that of limb number `limb`, a leg, does.
@@ -258,8 +266,9 @@ impl Body<'_> {
     ) -> [Row; 4] {
         let mut rows = [[f64::NAN; STATIONS]; 4];
         for (at, (outlines, &height)) in cuts.iter().zip(heights).enumerate() {
-            let counted = outlines.iter().filter(|outline| counts(outline));
-            if let Some(Slice { middle, half }) = slice_around(counted, start(height), keeps_across) {
+            let counted: Vec<&Outline> = outlines.iter().filter(|outline| counts(outline)).collect();
+            let slice = slice_around(counted.into_iter(), start(height), keeps_across);
+            if let Some(Slice { middle, half }) = slice {
                 let numbers = [middle.x, middle.y, half.x, half.y];
                 rows.iter_mut().zip(numbers).for_each(|(row, number)| row[at] = number / self.length);
             }
@@ -267,20 +276,20 @@ impl Body<'_> {
         rows
     }
 
-    fn torso(&self) -> Option<TorsoProfile> {
+    fn torso(&self, triangles: &[[u32; 3]]) -> Option<TorsoProfile> {
         let planes = self.frame.torso_planes();
         let heights = stations(TORSO_STATIONS).map(|t| t * self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
-        let cuts = self.cut(Chain::Trunk, &planes, &heights);
+        let cuts = self.cut(triangles, &planes, &heights);
         let start = |height: f64| DVec2::new(0.0, shoulders.1.y * height / shoulders.0);
         let rows = self.rows(&cuts, &heights, |_| true, start, true);
         smooth_rows(&rows).map(|[_, forward, breadth, depth]| TorsoProfile { breadth, depth, forward })
     }
 
-    fn legs(&self) -> (Option<LegProfile>, Option<SkirtProfile>) {
+    fn legs(&self, triangles: &[[u32; 3]]) -> (Option<LegProfile>, Option<SkirtProfile>) {
         let planes = self.frame.leg_planes();
         let heights = stations(LEG_STATIONS).map(|t| t * self.frame.leg_length);
-        let cuts = self.cut(Chain::Trunk, &planes, &heights);
+        let cuts = self.cut(triangles, &planes, &heights);
         let mut sides: Vec<[Row; 4]> = Vec::new();
         for side in 2..4 {
             let sign = self.frame.signs[side];
@@ -322,7 +331,7 @@ impl Body<'_> {
             let length = self.frame.arm_lengths[side];
             let heights = stations(ARM_STATIONS).map(|t| t * length);
             let elbow = planes.locate(self.frame.limbs[side].middle);
-            let cuts = self.cut(Chain::Arm(side), &planes, &heights);
+            let cuts = self.cut(&self.triangles(Chain::Arm(side)), &planes, &heights);
             let bone = |height: f64| on_bones(elbow, length, height)[0];
             let rows = self.rows(&cuts, &heights, |_| true, bone, false);
             *middle = (|| {
@@ -375,7 +384,7 @@ impl Body<'_> {
     /// vertices as it is. What curls is read from cuts: a box has vertices at its ends alone.
     fn droops(&self, side: usize, planes: &Planes, points: &[(f64, DVec2)], length: f64) -> [DVec2; 3] {
         let heights = stations(ARM_STATIONS).map(|t| t * length);
-        let cuts = self.cut(Chain::Hand(side), planes, &heights);
+        let cuts = self.cut(&self.triangles(Chain::Hand(side)), planes, &heights);
         let middles: Vec<(f64, DVec2)> = (heights.into_iter().zip(&cuts))
             .filter_map(|(s, outlines)| Some((s, middle(outlines)?)))
             .collect();
@@ -418,19 +427,15 @@ impl Body<'_> {
         mean_numbers(&sides, self.length)
     }
 
-    fn neck(&self) -> Option<f64> {
+    fn neck(&self, triangles: &[[u32; 3]]) -> Option<f64> {
         let Heights { shoulder_line, chin, .. } = self.frame.heights;
         let planes = self.frame.torso_planes();
         let heights = NECK_HEIGHTS.map(|t| shoulder_line + t * (chin - shoulder_line) - planes.origin.y);
         let start = planes.locate(self.frame.shoulders).1;
-        let mut radii: Vec<f64> = self
-            .cut(Chain::Trunk, &planes, &heights)
-            .iter()
-            .filter_map(|outlines| slice_around(outlines.iter(), start, true))
-            .map(|slice| (slice.half.x + slice.half.y) / 2.0)
-            .collect();
-        radii.sort_by(f64::total_cmp);
-        radii.get(radii.len() / 2).map(|radius| (radius / self.length).min(THICKEST_NECK))
+        let cuts = self.cut(triangles, &planes, &heights);
+        let slices = cuts.iter().filter_map(|outlines| slice_around(outlines.iter(), start, true));
+        let radius = upper_median(slices.map(|slice| (slice.half.x + slice.half.y) / 2.0))?;
+        Some((radius / self.length).min(THICKEST_NECK))
     }
 }
 

@@ -113,7 +113,7 @@ impl Taps {
 
 /// Reaches no further than [`FURTHEST`]; gaps between rays filled along the ring; NaN where too few rays meet anything.
 fn bounded(mut ring: Ring) -> Ring {
-    let mut hits = hits(ring);
+    let mut hits: Vec<f64> = hits(ring).collect();
     if (hits.len() as f64) < GOES_AROUND * RAYS as f64 {
         return [f64::NAN; RAYS];
     }

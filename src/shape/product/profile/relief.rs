@@ -11,8 +11,7 @@ use super::radius_map::{RadiusMap, Ring, reaches_around};
 use super::station::{centred, surface};
 use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::weld::Weld;
-use crate::geometry::{Moved, outer};
-use crate::geometry::{smoothstep, smoothstep_slope};
+use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::product::part::{Part, PartWeights};
@@ -227,7 +226,7 @@ impl Body<'_> {
         let count = ((end - start) / step).ceil().clamp(1.0, MOST_ROWS) as usize + 1;
         let ways: Vec<f64> = (0..count).map(|row| step * row as f64).collect();
         let heights: Vec<f64> = ways.iter().map(|way| start + way).collect();
-        let mut cuts = self.cut(chain, &planes, &heights);
+        let mut cuts = self.cut(&self.triangles(chain), &planes, &heights);
         if let Chain::Leg(side) = chain {
             cuts.iter_mut().for_each(|outlines| outlines.retain(|outline| !self.is_over(2 + side, outline)));
         }

@@ -64,8 +64,8 @@ pub(super) fn centred(start: DVec2, keeps_across: bool, extents: impl Fn(DVec2) 
 }
 
 /// Those of `reaches` that meet something.
-pub(super) fn hits(reaches: impl IntoIterator<Item = f64>) -> Vec<f64> {
-    reaches.into_iter().filter(|reach| !reach.is_nan()).collect()
+pub(super) fn hits(reaches: impl IntoIterator<Item = f64>) -> impl Iterator<Item = f64> {
+    reaches.into_iter().filter(|reach| !reach.is_nan())
 }
 
 /// How far the body reaches from `middle` along the first coordinate, the second one, and back; NaN where it is open.
@@ -73,7 +73,7 @@ fn extents<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f
     let surface = surface(outlines, middle);
     [0, 1, 2, 3].map(|quarter| {
         let ray = quarter * RAYS / 4 + RAYS;
-        let mut near = hits((ray - BESIDE..=ray + BESIDE).map(|ray| surface[ray % RAYS]));
+        let mut near: Vec<f64> = hits((ray - BESIDE..=ray + BESIDE).map(|ray| surface[ray % RAYS])).collect();
         if near.len() < FEWEST_HITS { f64::NAN } else { median(&mut near) }
     })
 }
@@ -99,11 +99,11 @@ fn surface_within<'a>(
     fills: bool,
 ) -> [f64; RAYS] {
     let reaches: Vec<[f64; RAYS]> = outlines.map(|outline| outline.reaches(middle)).collect();
-    let share = |reaches: &[f64; RAYS]| hits(*reaches).len() as f64 / RAYS as f64;
+    let share = |reaches: &[f64; RAYS]| hits(*reaches).count() as f64 / RAYS as f64;
     let (layers, mut open): (Vec<&[f64; RAYS]>, Vec<_>) =
         reaches.iter().partition(|reaches| share(reaches) >= GOES_AROUND);
     let mut layers: Vec<(f64, &[f64; RAYS])> =
-        layers.into_iter().map(|layer| (median(&mut hits(*layer)), layer)).collect();
+        layers.into_iter().map(|layer| (median(&mut hits(*layer).collect::<Vec<_>>()), layer)).collect();
     let biggest = layers.iter().map(|layer| layer.0).fold(0.0, f64::max);
     layers.retain(|layer| layer.0 >= HIDDEN * biggest);
     open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
@@ -112,9 +112,8 @@ fn surface_within<'a>(
         // NaN is neither greater nor less than any hit.
         let (nearest, furthest) =
             hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
-        if nearest.is_nan() {
-            let filling = reaches.iter().filter(|_| fills);
-            return filling.map(|outline| outline[ray]).fold(f64::NAN, f64::min);
+        if nearest.is_nan() && fills {
+            return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
         }
         let reach = furthest.min(stands_off * nearest);
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
