@@ -112,7 +112,9 @@ impl Worn {
             facing: None,
             floor: f64::NEG_INFINITY,
         };
-        let displaced = self.kept_outside(points, after, weld, &cloth, threads)?.unwrap_or_default();
+        let Some(displaced) = self.kept_outside(points, after, weld, &cloth, threads)? else {
+            return Ok(Pushed::default());
+        };
         let mut of_place = vec![DVec3::ZERO; weld.count];
         for (&place, displaced) in self.places.iter().zip(displaced) {
             of_place[place as usize] = displaced;
