@@ -37,7 +37,7 @@ pub struct Parting {
 
 /// To which side each place goes, 1 for the left; `None` where hair need not or cannot part.
 ///
-/// `points`: in head lengths from the middle of the chin; `pieces`: the connected piece of each, known by its least place.
+/// `points`: in head lengths from the middle of the chin; `pieces`: the number of each one's connected piece, below that of points.
 pub fn sides(points: &[DVec3], pieces: &[u32], covered: f64) -> Option<Vec<f64>> {
     let lowest = points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
     if covered <= COVERED || lowest > 0.0 {

@@ -11,8 +11,7 @@ use super::scales::Scales;
 use super::slab::slab;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
-use crate::geometry::{Moved, outer};
-use crate::geometry::{smoothstep, smoothstep_slope};
+use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
 use crate::shape::product::part::{NECK, Part, PartWeights, TORSO};
 use glam::{DMat3, DVec2, DVec3};
 
@@ -473,9 +472,7 @@ fn level_tables(
             length * at(&|skirt| skirt.shift),
         ]
     };
-    let (up, down) = (chin - crotch, crotch - frame.heights.sole);
-    let step = (length / ROWS_PER_HEAD).max(up.max(down) / MOST_ROWS);
-    // Just below it: as broad as the torso's lowest slice, or as what is below where that is more.
+    // Just below the crotch: as broad as the torso's lowest slice, or as what is below where that is more.
     let hem = |y: f64| -> [f64; 6] {
         let (mut row, under) = (of_torso(y), below(y));
         for (scale, half) in [(0, 2), (1, 3)] {
@@ -485,6 +482,8 @@ fn level_tables(
         }
         row
     };
+    let (up, down) = (chin - crotch, crotch - frame.heights.sole);
+    let step = (length / ROWS_PER_HEAD).max(up.max(down) / MOST_ROWS);
     // The torso begins halfway between two rows: where it lay on one, last digits would tell to which side that belongs.
     let rows = |way: f64| ((way + 0.3 * length) / step).ceil().max(1.0) + 0.5;
     let (below_crotch, above) = (rows(down), rows(up));

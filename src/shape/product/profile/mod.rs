@@ -120,17 +120,17 @@ impl SkirtProfile {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Profile {
-    #[serde(skip_serializing_if = "Option::is_none")]
     /// From the crotch up to the shoulder line.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub torso: Option<TorsoProfile>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     /// From the crotch down to the ankle.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub leg: Option<LegProfile>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     /// From the shoulder joint out to the wrist.
-    pub arm: Option<ArmProfile>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmProfile>,
     /// What hangs around both legs.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub skirt: Option<SkirtProfile>,
     /// Length beyond the wrist, half breadth, half thickness.
     #[serde(skip_serializing_if = "Option::is_none")]
