@@ -2,8 +2,8 @@
 
 use super::{BodyShape, BoneShape};
 use crate::character::Role;
-use crate::character::bones::bones;
-use crate::geometry::mean;
+use crate::character::bones::{Bone, bones};
+use crate::geometry::{by_key, mean};
 use crate::options::Options;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,12 +34,8 @@ pub fn group_shapes(
     options: &Options,
 ) -> BTreeMap<String, GroupShape> {
     let shape = shape.restricted_to(roles);
-    let mut groups: BTreeMap<String, Vec<BoneShape>> = BTreeMap::new();
-    for bone in bones(&shape.roles(), &options.bone_groups) {
-        if let Some(&measured) = shape.bones.get(bone.key()) {
-            groups.entry(bone.group).or_default().push(measured);
-        }
-    }
+    let measured = |bone: Bone| shape.bones.get(bone.key()).map(|&measured| (bone.group, measured));
+    let groups = by_key(bones(&shape.roles(), &options.bone_groups).into_iter().filter_map(measured));
     let of_group = |bones: Vec<BoneShape>| GroupShape {
         length: bones.iter().fold(0.0, |sum, bone| sum + bone.length),
         radius: mean(bones.iter().filter_map(|bone| bone.radius)),

@@ -3,6 +3,7 @@
 use super::groups::PartGroups;
 use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::by_key;
 use crate::options::GroupSettings;
 use crate::shape::group::Coefficient;
 use std::collections::BTreeMap;
@@ -75,10 +76,7 @@ impl PartCoefficients {
 
     /// By bone group, for the report: of a group with several kinds of parts, their mean.
     pub fn by_group(&self, groups: &PartGroups) -> BTreeMap<String, Coefficient> {
-        let mut all: BTreeMap<String, Vec<Scale>> = BTreeMap::new();
-        for kind in Group::ALL {
-            all.entry(groups.name(kind).to_string()).or_default().push(self.of(kind));
-        }
+        let all = by_key(Group::ALL.map(|kind| (groups.name(kind).to_string(), self.of(kind))));
         let coefficient = |scales: Vec<Scale>| {
             let mean = |of: fn(&Scale) -> f64| scales.iter().map(of).sum::<f64>() / scales.len() as f64;
             Coefficient { length_scale: mean(|it| it.length), thickness_scale: mean(|it| it.thickness) }
