@@ -215,9 +215,12 @@ impl Place {
         if let Some(head) = character.humanoid.joint(Role::Head)
             && character.skeleton.validate().is_ok()
         {
-            let skeleton = &character.skeleton;
-            let of_head = |joint: usize| skeleton.ancestors(joint).any(|above| above == head);
-            return Self::Rigged((0..skeleton.joints.len()).map(of_head).collect());
+            let joints = &character.skeleton.joints;
+            let mut of_head = vec![false; joints.len()];
+            for joint in character.skeleton.parents_first() {
+                of_head[joint] = joint == head || joints[joint].parent.is_some_and(|parent| of_head[parent]);
+            }
+            return Self::Rigged(of_head);
         }
         let up = character.axes.up;
         let heights = character.meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| f64::from(p.dot(up)));
