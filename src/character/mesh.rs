@@ -95,11 +95,11 @@ impl Mesh {
 
     /// See [`Mesh::validate`].
     fn check(&self, joint_count: usize) -> std::result::Result<(), Fault> {
-        let at_vertex = |vertex: usize, message: String| Err((Some(Element::Vertex(vertex)), message));
+        let at = |vertex: usize, message: String| Err((Some(Element::Vertex(vertex)), message));
         let count = self.positions.len();
         if let Some(vertex) = self.positions.iter().position(|p| !p.is_finite()) {
             let p = self.positions[vertex];
-            return at_vertex(vertex, format!("vertex {vertex} is at {p}: positions must be finite numbers"));
+            return at(vertex, format!("vertex {vertex} is at {p}: positions must be finite numbers"));
         }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= count) {
@@ -117,17 +117,11 @@ impl Mesh {
         }
         if let Some(vertex) = self.normals.iter().position(|n| !n.is_finite()) {
             let n = self.normals[vertex];
-            return at_vertex(
-                vertex,
-                format!("the normal of vertex {vertex} is {n}: normals must be finite"),
-            );
+            return at(vertex, format!("the normal of vertex {vertex} is {n}: normals must be finite"));
         }
         if let Some(vertex) = self.tangents.iter().position(|t| !t.is_finite()) {
             let t = self.tangents[vertex];
-            return at_vertex(
-                vertex,
-                format!("the tangent of vertex {vertex} is {t}: tangents must be finite"),
-            );
+            return at(vertex, format!("the tangent of vertex {vertex} is {t}: tangents must be finite"));
         }
         for (target, morph) in self.morph_targets.iter().enumerate() {
             morph.check(target, count)?;

@@ -279,7 +279,7 @@ pub fn roles_from_names(skeleton: &Skeleton) -> Humanoid {
     if let Some(head) = humanoid.joint(Role::Head) {
         for side in [Side::Left, Side::Right] {
             let eye = named.first_below(&named.all(Part::Eye, Some(side)), Some(head));
-            humanoid.set_on_side(side == Side::Left, [Role::LeftEye], [eye]);
+            humanoid.set(Role::LeftEye.on_side(side == Side::Left), eye);
         }
         humanoid.set(Role::Jaw, named.first_below(&named.all(Part::Jaw, None), Some(head)));
     }

@@ -69,12 +69,13 @@ pub fn mean_bindings(
 pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
     use Role::*;
     let role = figure.joint_roles[joint]?;
-    let next = match role.on_side(role.is_left()) {
+    let next = match role {
         LeftUpperArm => LeftLowerArm,
+        RightUpperArm => RightLowerArm,
         LeftLowerArm | LeftHand => LeftHand,
+        RightLowerArm | RightHand => RightHand,
         _ => return None,
     };
-    let next = next.on_side(role.is_left());
     let own = figure.humanoid.joint(role);
     let is_on_bone = own == Some(joint) || {
         let (p, from, to) = (figure.joints[joint], figure.role_position(role)?, figure.role_position(next)?);

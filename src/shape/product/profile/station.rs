@@ -115,6 +115,7 @@ fn surface_within<'a>(
         if nearest.is_nan() && fills {
             return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
         }
+        // NaN where no layer is: no open outline lies on that.
         let reach = furthest.min(stands_off * nearest);
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
     })
