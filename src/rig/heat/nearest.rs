@@ -171,19 +171,16 @@ impl Nearest {
     /// Those of `near` that a vertex at `p` sees past `surface` and `body`, or all of them.
     fn of(p: DVec3, surface: &Surface, segments: &Segments, body: Option<Body>, near: &[NearBone]) -> Self {
         let least = near.iter().fold(f64::INFINITY, |least, bone| least.min(bone.distance));
-        let mut last = None;
+        let mut last = (DVec3::NAN, false);
         let sees = |bone: &&NearBone| {
             let way = segments.foot(bone.segment as usize, p) - p;
             // Bones that share a joint share the ray to it.
-            match last {
-                Some((known, is_seen)) if known == way => is_seen,
-                _ => {
-                    let is_hidden = body.is_some_and(|body| body.hides(p, way))
-                        || surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN);
-                    last = Some((way, !is_hidden));
-                    !is_hidden
-                }
+            if last.0 != way {
+                let is_hidden = body.is_some_and(|body| body.hides(p, way))
+                    || surface.is_hit(p + RAY_MARGIN * way, way, 1.0 - 2.0 * RAY_MARGIN);
+                last = (way, !is_hidden);
             }
+            last.1
         };
         let seen: Vec<NearBone> = near.iter().filter(sees).copied().collect();
         let is_seen = !seen.is_empty();

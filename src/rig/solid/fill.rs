@@ -78,12 +78,10 @@ impl Solid {
         unreached[0] = false;
         // No wall is near the grid's end, so all of it hangs together. The first that came goes first: so few wait.
         let mut open = VecDeque::from([0usize]);
-        let steps = [IVec3::X, IVec3::Y, IVec3::Z].map(|step| self.stride(step));
+        let [x, y, z] = [IVec3::X, IVec3::Y, IVec3::Z].map(|step| self.stride(step));
         while let Some(cell) = open.pop_front() {
             // Beyond the end of a line in memory another one begins, at the grid's end as well.
-            for next in
-                steps.into_iter().flat_map(|step| [step, -step]).map(|by| cell.wrapping_add_signed(by))
-            {
+            for next in [x, -x, y, -y, z, -z].map(|step| cell.wrapping_add_signed(step)) {
                 if unreached.get(next) == Some(&true) && !walls[next] {
                     unreached[next] = false;
                     open.push_back(next);

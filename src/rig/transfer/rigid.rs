@@ -57,11 +57,9 @@ fn things(points: &[DVec3], welded: &Weld, triangles: &[[u32; 3]]) -> Vec<Vec<u3
     let component = components(&corners, &near);
     let component = |vertex: usize| component[near.representative[vertex] as usize] as usize;
     let count = (0..points.len()).map(|vertex| component(vertex) + 1).max().unwrap_or(0);
-    let boxes: Vec<Bounds> =
-        bounds_by_group(count, points.iter().enumerate().map(|(v, &p)| (component(v), p)))
-            .into_iter()
-            .map(|(low, high)| (low - TOUCH / 2.0, high + TOUCH / 2.0))
-            .collect();
+    let boxes = bounds_by_group(count, (0..points.len()).map(|vertex| (component(vertex), points[vertex])));
+    let wider = |(low, high): Bounds| (low - TOUCH / 2.0, high + TOUCH / 2.0);
+    let boxes: Vec<Bounds> = boxes.into_iter().map(wider).collect();
     // Crumbs by the thousand are left as they are.
     let clusters = if count <= MOST_PIECES { grown_clusters(&boxes) } else { (0..count).collect() };
     let members = (0..points.len()).map(|vertex| (clusters[component(vertex)], vertex as u32));

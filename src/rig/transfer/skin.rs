@@ -41,10 +41,8 @@ impl Skin {
     /// The unit normal at a point of the surface; 0 where there is none.
     pub(super) fn normal(&self, triangles: &[[u32; 3]], at: &Closest) -> DVec3 {
         let corners = triangles[at.triangle].into_iter().zip(at.barycentric);
-        corners
-            .map(|(vertex, share)| share * self.normals[vertex as usize])
-            .sum::<DVec3>()
-            .normalize_or_zero()
+        let sum: DVec3 = corners.map(|(vertex, share)| share * self.normals[vertex as usize]).sum();
+        sum.normalize_or_zero()
     }
 
     /// The places closest to `p` and their shares, most of all the closest.
@@ -124,13 +122,9 @@ impl<'a> Body<'a> {
     }
 
     fn row(&self, vertex: u32) -> Row {
-        let weights = self.source.weights;
-        if vertex as usize >= weights.row_count() {
-            return Row::new();
-        }
-        normalised(
-            weights.row(vertex as usize).iter().map(|&(joint, weight)| (joint, weight.into())).collect(),
-        )
+        let (weights, vertex) = (self.source.weights, vertex as usize);
+        let row = if vertex < weights.row_count() { weights.row(vertex) } else { &[] };
+        normalised(row.iter().map(|&(joint, weight)| (joint, weight.into())).collect())
     }
 
     /// The barycentric blend; empty where no corner has weights.
