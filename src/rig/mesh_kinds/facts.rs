@@ -151,9 +151,8 @@ impl Scene<'_> {
     /// The share of a mesh that lies over others that are no crumbs beside it.
     pub(super) fn layer_share(&self, mesh: usize) -> f64 {
         let facts = &self.known.facts[mesh];
-        facts.share(|sample| {
-            sample.over.is_some_and(|below| self.known.facts[below].area > CRUMB * facts.area)
-        })
+        let is_no_crumb = |below: usize| self.known.facts[below].area > CRUMB * facts.area;
+        facts.share(|sample| sample.over.is_some_and(is_no_crumb))
     }
 
     /// The share of a mesh that lies within others larger than itself.

@@ -168,14 +168,12 @@ fn warning(figure: &UnitFigure, kinds: &[MeshKind], meshes: &[usize]) -> Vec<War
     if meshes.is_empty() {
         return Vec::new();
     }
-    let named: Vec<String> = meshes
-        .iter()
-        .map(|&mesh| {
-            let name = &figure.names[mesh];
-            let name = if name.is_empty() { format!("mesh {mesh}") } else { Named(name).to_string() };
-            format!("{name} ({})", kinds[mesh])
-        })
-        .collect();
+    let named = |&mesh: &usize| {
+        let name = &figure.names[mesh];
+        let name = if name.is_empty() { format!("mesh {mesh}") } else { Named(name).to_string() };
+        format!("{name} ({})", kinds[mesh])
+    };
+    let named: Vec<String> = meshes.iter().map(named).collect();
     let message =
         format!("guessed from where they lie: {}; if that is wrong, say what they are", named.join(", "));
     vec![Warning::new("kind_guessed", message).about("kinds")]
@@ -322,12 +320,8 @@ impl Scene<'_> {
         let points = skin.iter().flatten().map(|&vertex| self.figure.positions[vertex as usize]);
         let (low, high) = range(points.filter(|p| p.y > chin).map(|p| p.z));
         let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
-        HeadRegion {
-            plane,
-            chin,
-            middle: head.map_or(middle, |head| head.z),
-            length: (1.0 - chin).max(LEAST_HEAD),
-        }
+        let middle = head.map_or(middle, |head| head.z);
+        HeadRegion { plane, chin, middle, length: (1.0 - chin).max(LEAST_HEAD) }
     }
 
     /// What a mesh is that is not body.

@@ -51,11 +51,9 @@ impl Bone {
     /// How far the volume reaches around the longest segment, in voxels: the median over directions at right angles to
     /// it, at least; 0 where it is out of the volume or has no length.
     pub fn thickness(&self, volume: &Voxels) -> f64 {
-        let longest = |one: &&[DVec3; 2], other: &&[DVec3; 2]| {
-            one[0].distance(one[1]).total_cmp(&other[0].distance(other[1]))
-        };
-        let longest = self.segments.iter().max_by(longest);
-        let Some(&[a, b]) = longest.filter(|[a, b]| a.distance(*b) > ROUNDING) else {
+        let length = |[a, b]: &[DVec3; 2]| a.distance(*b);
+        let longest = self.segments.iter().max_by(|one, other| length(one).total_cmp(&length(other)));
+        let Some(&[a, b]) = longest.filter(|ends| length(ends) > ROUNDING) else {
             return 0.0;
         };
         let along = (b - a).normalize();

@@ -98,10 +98,8 @@ fn patches(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<(usize, bool)> {
             }
         }
     }
-    (0..triangles.len())
-        .map(|triangle| groups.least(2 * triangle))
-        .map(|first| (first / 2, first % 2 == 1))
-        .collect()
+    let firsts = (0..triangles.len()).map(|triangle| groups.least(2 * triangle));
+    firsts.map(|first| (first / 2, first % 2 == 1)).collect()
 }
 
 #[cfg(test)]

@@ -220,12 +220,12 @@ impl Cloth {
         let unmatched = Fill::new(&weights, vertices().map(to_closest).collect());
         let small = vertices().filter(|&vertex| is_small(vertex) && !weights.is_loose(vertex));
         let rigid = by_key(small.map(|vertex| (component(vertex), vertex))).into_values().collect();
-        let filled_in = Some(if matched.factor.is_some() { "inpainted" } else { "unsolved" });
+        let filled_in = if matched.factor.is_some() { "inpainted" } else { "unsolved" };
         let rule = |vertex: usize| match (matched.pulls[vertex], unmatched.pulls[vertex]) {
             (None, None) if weights.is_loose(vertex) => Some("loose_vertex"),
             (None, None) => Some("rigid_piece"),
             (None, Some(_)) => Some("component_without_match"),
-            (pull, _) => filled_in.filter(|_| is_free(pull)),
+            (pull, _) => is_free(pull).then_some(filled_in),
         };
         let rules = vertices().map(rule).collect();
         Self { triangles, weights, matched, unmatched, rigid, rules }
