@@ -9,14 +9,14 @@ mod reach;
 use super::{FoundJoint, UnitFigure};
 use crate::character::{MeshKind, Role};
 use crate::error::{Named, Result, Warning};
-use crate::geometry::{SEAM, Surface, range, rim_edges, weld};
+use crate::geometry::{SEAM, Surface, by_key, by_number, distinct, range, rim_edges, weld};
 use crate::progress::Progress;
 pub use facts::Surroundings;
 use facts::{Facts, Scene};
 use glam::DVec3;
 use reach::{SLICES, Slices, middle_plane, reaches_over, shown_count, slices};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A mesh of which this share lies over others is a layer. Seen: at -30 %, two more meshes misjudged.
 const LAYER_SHARE: f64 = 0.5;
@@ -382,14 +382,18 @@ impl Scene<'_> {
 /// For each mesh those whose border a good share of its own border is.
 fn find_seams(figure: &UnitFigure) -> Vec<Vec<usize>> {
     let welded = weld(&figure.positions, SEAM);
-    let meshes = 0..figure.mesh_count();
-    let border = |mesh| rim_edges(figure.triangles_of(mesh), &welded).into_iter().flatten().collect();
-    let borders: Vec<BTreeSet<u32>> = meshes.clone().map(border).collect();
-    let goes_on = |mesh: usize, other: usize| {
-        let shared = borders[mesh].intersection(&borders[other]).count();
-        mesh != other && shared > 0 && shared as f64 >= SEAM_SHARE * borders[mesh].len() as f64
+    let border = |mesh| distinct(rim_edges(figure.triangles_of(mesh), &welded).into_iter().flatten());
+    let borders: Vec<Vec<u32>> = (0..figure.mesh_count()).map(border).collect();
+    let ends = borders.iter().enumerate();
+    let ends = ends.flat_map(|(mesh, border)| border.iter().map(move |&vertex| (vertex, mesh)));
+    let meshes_at = by_number(welded.count, ends);
+    let goes_on = |(mesh, border): (usize, &Vec<u32>)| {
+        let others = border.iter().flat_map(|&vertex| meshes_at.of(vertex as usize));
+        let shared = by_key(others.filter(|&&other| other != mesh).map(|&other| (other, ())));
+        let most = SEAM_SHARE * border.len() as f64;
+        shared.into_iter().filter(|(_, shared)| shared.len() as f64 >= most).map(|(other, _)| other).collect()
     };
-    meshes.clone().map(|mesh| meshes.clone().filter(|&other| goes_on(mesh, other)).collect()).collect()
+    borders.iter().enumerate().map(goes_on).collect()
 }
 
 /// Where the head is.
