@@ -128,7 +128,7 @@ pub fn voxel_weights(
         weights
     };
     let weights = Weights::from_rows(parallel::collect(options.thread_count, points.len(), 1000, weigh));
-    let apart = slots.iter().filter(|&&slot| paths.islands[slot as usize] != NONE).count();
+    let apart = slots.iter().filter(|&&slot| paths.is_apart[slot as usize]).count();
     let unreached = (0..points.len()).filter(|&vertex| rows.of(vertex).is_empty()).count();
     let counts = [(VOLUME_APART, apart), (NEAREST_BONE, unreached)];
     let fallback = counts.into_iter().filter(|&(_, count)| count > 0).collect();
