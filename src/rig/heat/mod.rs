@@ -98,8 +98,8 @@ pub struct HeatSystem {
 /// The bones that hold a vertex in place of the nearest ones, with shares of 1; none where the nearest do.
 pub type Held = Vec<(u32, f64)>;
 
-/// Bones and their weights, each with its vertex.
-type Solution = Vec<(u32, (u32, f64))>;
+/// (vertex, bone, weight) of some bones, by vertices.
+type Solution = Vec<(u32, u32, f64)>;
 
 /// How a component gets its weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -240,7 +240,8 @@ impl HeatSystem {
         // Also where it is not a number.
         let heat = if heat > HEAT_RANGE[0] { heat.min(HEAT_RANGE[1]) } else { HEAT_RANGE[0] };
         let (blocks, is_raised) = self.solve(heat, &mut progress.part(0.0, 0.8))?;
-        let solved = by_number(count, blocks.iter().flatten().copied());
+        let entries = blocks.iter().flatten().map(|&(vertex, bone, weight)| (vertex, (bone, weight)));
+        let solved = by_number(count, entries);
         drop(blocks);
         let means = self.means();
         let weigh = |vertex: usize| {
@@ -296,7 +297,7 @@ impl HeatSystem {
             for vertex in 0..size {
                 for (&(bone, _), column) in sources.iter().zip(columns.chunks(size)) {
                     if column[vertex] >= ROUNDING {
-                        solution.push((vertex as u32, (bone, column[vertex])));
+                        solution.push((vertex as u32, bone, column[vertex]));
                     }
                 }
             }
