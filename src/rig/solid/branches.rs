@@ -5,8 +5,8 @@
 //! the two ends: the merge tree of the distance (Carr, Snoeyink and Axen, Computing contour trees in all dimensions, 2003).
 //! The rims of a piece, one after the other, are the sections of a limb, whatever way it bends.
 
-use super::voxels::Voxels;
-use crate::geometry::{NONE, by_key, least_costs, merge_tree};
+use super::voxels::{Queue, Voxels};
+use crate::geometry::{NONE, by_key, merge_tree};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -50,15 +50,29 @@ pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> 
 /// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
 fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
     let solid = &voxels.solid;
-    let is_core = |slot: &u32| {
-        let at = solid.middle(voxels.place(*slot));
-        (at.x - axis).abs() < CORE * solid.cell && heights.contains(&at.y)
-    };
-    let count = voxels.cells.len();
-    let core = (0..count as u32).filter(is_core).map(|slot| (slot, 0.0));
-    let beside = |slot: u32| voxels.beside(slot).map(|(other, sides)| (other, STEPS[sides - 1].into()));
-    // Whole numbers, and what is infinite becomes `NONE`.
-    least_costs(count, core, beside).into_iter().map(|cost| cost as u32).collect()
+    let mut far = vec![NONE; voxels.cells.len()];
+    // Few numbers, all whole: this takes a quarter of the time of `least_costs`.
+    let mut queue = Queue::default();
+    for slot in 0..far.len() as u32 {
+        let at = solid.middle(voxels.place(slot));
+        if (at.x - axis).abs() < CORE * solid.cell && heights.contains(&at.y) {
+            far[slot as usize] = 0;
+            queue.push(0, slot);
+        }
+    }
+    while let Some((at, slot)) = queue.pop() {
+        if far[slot as usize] as usize != at {
+            continue;
+        }
+        for (other, sides) in voxels.beside(slot) {
+            let next = at as u32 + STEPS[sides - 1];
+            if next < far[other as usize] {
+                far[other as usize] = next;
+                queue.push(next as usize, other);
+            }
+        }
+    }
+    far
 }
 
 /// The pieces of the merge tree: of each its cells, from the tip inwards.
