@@ -11,7 +11,7 @@ pub enum Of {
     /// Filling a cell of a solid.
     Cell = 11,
     /// A wave through a filled cell.
-    Wave = 54,
+    Wave = 52,
     /// A vertex of the body whose weights are heat's.
     Heat = 1400,
     /// A vertex of the body whose weights are carried over.

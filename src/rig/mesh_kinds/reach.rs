@@ -4,6 +4,7 @@ use super::PART_GAP;
 use super::facts::{mesh_area, points_on};
 use crate::geometry::{Surface, bounds, range};
 use crate::rig::UnitFigure;
+use crate::rig::front_view::image;
 use glam::DVec3;
 
 /// Points on each mesh by which planes of symmetry are compared. Seen: ±30 % changes no mesh.
@@ -86,10 +87,8 @@ pub(super) fn middle_plane(figure: &UnitFigure, choose: &dyn Fn(usize) -> bool) 
     order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
     let score = |middle: f64| -> f64 {
         let shares = points.iter().zip(&areas).map(|(points, area)| {
-            let mirrored = points.iter().filter(|(p, _)| {
-                let mirrored = DVec3::new(2.0 * middle - p.x, p.y, p.z);
-                surface.is_within(mirrored, PART_GAP / 2.0)
-            });
+            let mirrored =
+                points.iter().filter(|(p, _)| surface.is_within(image(*p, middle), PART_GAP / 2.0));
             area * mirrored.count() as f64 / points.len().max(1) as f64
         });
         shares.sum()

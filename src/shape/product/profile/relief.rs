@@ -139,8 +139,10 @@ impl Relief {
                     add(bound * share, slope, map.shift(p));
                 }
             }
-            if let Some(map) = &limbs[2 + side] {
-                let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
+            let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
+            if let Some(map) = &limbs[2 + side]
+                && bound > 0.0
+            {
                 let length = frame.arm_lengths[side];
                 let t = map.planes.locate(p).0 / length;
                 let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
