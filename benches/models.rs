@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use superdeform::internals::character::bones::Group;
 use superdeform::internals::rig::WeightBone;
-use superdeform::internals::rig::skeleton::weight_bones;
+use superdeform::internals::rig::weight_bones::weight_bones;
 use superdeform::{Axes, Character, Deformed, Deformer, Role, Style, find_roles};
 use superdeform_host::file::GltfFile;
 use superdeform_host::load::{LoadOptions, Loaded};

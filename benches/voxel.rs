@@ -5,8 +5,8 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use superdeform::internals::character::Frame;
 use superdeform::internals::rig::UnitFigure;
-use superdeform::internals::rig::skeleton::weight_bones;
 use superdeform::internals::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
+use superdeform::internals::rig::weight_bones::weight_bones;
 use superdeform::{Progress, Role};
 use superdeform_benches::models;
 

@@ -17,7 +17,7 @@ use superdeform::internals::ffi::deformer::*;
 use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::rig::*;
-use superdeform::internals::ffi::style::*;
+use superdeform::internals::ffi::style_handle::*;
 use superdeform::{Character, Role};
 
 /// What one run may cost, so that thousands fit into a second.

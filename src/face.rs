@@ -6,12 +6,12 @@
 pub mod brows;
 pub mod dual;
 pub mod eyes;
+pub mod face_landmarks;
 pub mod head;
 pub mod iris;
+pub mod islands;
 pub mod kernel;
-pub mod landmarks;
 pub mod outline;
-pub mod pieces;
 pub mod raster;
 pub mod rows;
 pub mod seat;

@@ -52,11 +52,11 @@
 //! | III, IV-A | meshes, joints, weights, humanoid roles | `src/character` |
 //! | IV-B, Fig. 4 | a rig for what has none: joints, weights, clothes | `src/rig` |
 //! | V-A, Fig. 5 | bone lengths and surrounding-mesh radii | `src/shape/measure.rs` |
-//! | V-B3, Eqs. 9-11 | how much each bone group shrinks | `src/shape/paper/coefficients.rs` |
+//! | V-B3, Eqs. 9-11 | how much each bone group shrinks | `src/shape/paper/alpha_beta.rs` |
 //! | V-B1, Eqs. 1-4 | the shortened skeleton | `src/shape/paper/shorten.rs` |
-//! | V-B2, Eqs. 5-8 | the mesh follows, then its thickness is adjusted | `src/shape/paper/field.rs` |
+//! | V-B2, Eqs. 5-8 | the mesh follows, then its thickness is adjusted | `src/shape/paper/bone_field.rs` |
 //! | VI, Eqs. 12-13 | a younger face | `src/face.rs` |
-//! | VII | shorter hair, which the paper does by hand | `src/shape/product/hair.rs` |
+//! | VII | shorter hair, which the paper does by hand | `src/shape/product/hanging.rs` |
 //!
 //! # Two modes
 //!
@@ -64,7 +64,7 @@
 //! artist likes, and the chain adds these habits up: heads end in chests, arms above eyes. So [`Mode::Product`], the
 //! default, keeps the idea (measure, transfer, blend by weights) and reads five landmarks from the geometry instead
 //! (`src/shape/product/landmarks.rs`); fifteen parts of the body and its hair move by one map each and agree where they
-//! meet (`src/shape/product/field.rs`). `src/pipeline` puts the stages of both in order.
+//! meet (`src/shape/product/parts_field.rs`). `src/pipeline` puts the stages of both in order.
 //!
 //! Either way the deformation is a field, from a point and its weights to a place and a Jacobian (`src/shape/field.rs`), and
 //! everything goes through it: vertices, morph targets, joints, and any point that hangs from a joint.

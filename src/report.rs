@@ -2,10 +2,10 @@
 
 use crate::character::Role;
 use crate::error::Warning;
-use crate::face::landmarks::FaceLandmarks;
+use crate::face::face_landmarks::FaceLandmarks;
 use crate::options::{Mode, Options};
 use crate::shape::group::{Coefficient, GroupShape, group_shapes};
-use crate::shape::product::head::head_frame;
+use crate::shape::product::face_input::head_frame;
 use crate::shape::product::profile::{CHAINS, Profile, wanted_of};
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Heights, Measured};

@@ -89,6 +89,19 @@ fn files_that_documents_name_are_there() {
     assert!(missing.is_empty(), "files that are not there: {missing:#?}");
 }
 
+/// So that who reads `hanging.rs` anywhere knows which file is meant.
+#[test]
+fn no_two_files_of_the_source_have_one_name() {
+    let mut by_name = BTreeMap::<String, Vec<String>>::new();
+    for path in sources("src").into_keys() {
+        let name = path.rsplit('/').next().unwrap().to_string();
+        by_name.entry(name).or_default().push(path);
+    }
+    by_name.remove("mod.rs");
+    let twice: Vec<_> = by_name.values().filter(|paths| paths.len() > 1).collect();
+    assert!(twice.is_empty(), "files of one name: {twice:?}");
+}
+
 #[test]
 fn decisions_that_the_source_cites_are_written_down() {
     let cited = Regex::new(r"\bD(\d{1,2})\b").unwrap();

@@ -10,7 +10,7 @@ use superdeform::internals::character::bones::{Bone, Group, HEAD_TOP, bones};
 use superdeform::internals::face::{FaceMap, SphereMap, bearable_squash, f2, f2_slope, f4, f4_slope};
 use superdeform::internals::geometry::Surface;
 use superdeform::internals::shape::measure::radius;
-use superdeform::internals::shape::paper::field::{FieldBone, shares};
+use superdeform::internals::shape::paper::bone_field::{FieldBone, shares};
 use superdeform::internals::shape::{BoneField, coefficients, head_top, measure, shorten};
 use superdeform::{
     BodyShape, BoneShape, Coefficient, Error, ErrorKind, FaceCurve, GroupSettings, MeshKind, Role, Stage,

@@ -26,7 +26,7 @@ use superdeform::internals::ffi::deformer::*;
 use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
 use superdeform::internals::ffi::rig::*;
-use superdeform::internals::ffi::style::*;
+use superdeform::internals::ffi::style_handle::*;
 use superdeform::internals::shape::Measured;
 use superdeform::{
     BodyShape, Character, Deformer, FaceCurve, GroupSettings, Height, Humanoid, Mode, MorphTarget, Options,

@@ -72,7 +72,7 @@ fn a_style_that_is_taken_can_be_saved_and_loaded() {
 fn a_style_cannot_be_stretched_beyond_all_numbers() {
     use superdeform::internals::ffi::basics::*;
     use superdeform::internals::ffi::lifetime::*;
-    use superdeform::internals::ffi::style::*;
+    use superdeform::internals::ffi::style_handle::*;
     // Lengths that are next to nothing beside the head: stretched to so many heads they were infinite.
     let lengths = Proportions {
         head_length: 1e300,

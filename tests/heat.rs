@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use superdeform::Progress;
 use superdeform::internals::geometry::{Weld, weld};
 use superdeform::internals::rig::heat::{HeatOptions, HeatSystem, heat_weights};
-use superdeform::internals::rig::skeleton::weight_bones;
 use superdeform::internals::rig::solid::{CELLS, Solid};
+use superdeform::internals::rig::weight_bones::weight_bones;
 use superdeform::internals::rig::{UnitFigure, WeightBone, WeightSet};
 
 #[path = "common/models.rs"]

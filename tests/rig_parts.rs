@@ -18,7 +18,7 @@ use std::path::Path;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::parts::hangs_from_head;
 use superdeform::internals::rig::placed::Placed;
-use superdeform::internals::rig::skeleton::{skeleton_of, weight_bones};
+use superdeform::internals::rig::weight_bones::{skeleton_of, weight_bones};
 use superdeform::{Character, MeshKind, Progress, Rig, RigOptions, Role};
 
 use Role::*;

@@ -10,10 +10,10 @@ mod truth;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use superdeform::internals::rig::skeleton::weight_bones;
 use superdeform::internals::rig::voxel::{
     NEAREST_BONE, VOLUME_APART, VoxelOptions, heat_would_be_poor, voxel_weights,
 };
+use superdeform::internals::rig::weight_bones::weight_bones;
 use superdeform::internals::rig::{UnitFigure, WeightBone, WeightSet};
 use superdeform::{Progress, Role, Weights};
 use truth::Case;

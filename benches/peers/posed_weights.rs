@@ -16,7 +16,7 @@ use superdeform::internals::character::Frame;
 use superdeform::internals::geometry::Surface;
 use superdeform::internals::rig::UnitFigure;
 use superdeform::internals::rig::placed::Placed;
-use superdeform::internals::rig::skeleton::{skeleton_of, weight_bones};
+use superdeform::internals::rig::weight_bones::{skeleton_of, weight_bones};
 use superdeform::{Character, Humanoid, Mesh, Progress, Rig, RigOptions, Role, Skeleton, Weights};
 use superdeform_benches::models;
 use superdeform_host::file::GltfFile;

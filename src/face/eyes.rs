@@ -5,7 +5,7 @@
 
 use super::head::{Head, quantile_box};
 use super::iris::{Iris, iris};
-use super::pieces::{Piece, is_ball, pieces};
+use super::islands::{Piece, is_ball, pieces};
 use glam::{DVec2, DVec3};
 
 /// How the eyes were found, surest first.

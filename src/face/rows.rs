@@ -19,9 +19,9 @@
 use super::brows::Brows;
 use super::dual::{Dual, step};
 use super::eyes::{Eye, Eyes, Pair};
+use super::face_landmarks::{Ears, FaceLandmarks, Nose, height_and_distance};
 use super::iris::IrisFlow;
 use super::kernel::{Kernel, velocity};
-use super::landmarks::{Ears, FaceLandmarks, Nose, height_and_distance};
 use super::outline::{APART, DEEPEST, HEIGHTS, Outline, STATIONS};
 use crate::options::Features;
 use glam::{DMat3, DVec3};

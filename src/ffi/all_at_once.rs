@@ -2,10 +2,10 @@
 
 use super::arrays::{self, Structs};
 use super::basics::{SdefError, SdefProgress, SdefStatus, SdefStyle};
-use super::character::state::CharacterState;
+use super::character::character_state::CharacterState;
 use super::character::{SdefMesh, SdefSkeleton, read};
 use super::deformer::SdefMeshResult;
-use super::deformer::state::DeformerState;
+use super::deformer::deformer_state::DeformerState;
 use super::guard::{call, progress_of};
 use super::handles;
 use super::options::{self, SdefOptions};

@@ -547,7 +547,7 @@ mod tests {
     #[test]
     #[cfg(target_pointer_width = "64")]
     fn no_struct_must_be_larger_than_in_the_frozen_version() {
-        use crate::ffi::{character::*, deformer::*, options::*, style::*};
+        use crate::ffi::{character::*, deformer::*, options::*, style_handle::*};
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/headers/abi_1.txt");
         let Ok(frozen) = std::fs::read_to_string(file) else {
             println!("skipped: there is no {file}, as in a package from a registry");

@@ -4,8 +4,8 @@
 //! that was destroyed, made up or meant for something else is known from every live one.
 
 use super::basics::*;
-use super::character::state::CharacterState;
-use super::deformer::state::DeformerState;
+use super::character::character_state::CharacterState;
+use super::deformer::deformer_state::DeformerState;
 use super::guard::{Failure, Outcome};
 use crate::pipeline::Style;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError, TryLockResult};

@@ -93,4 +93,4 @@ pub mod lifetime;
 pub mod memory;
 pub mod options;
 pub mod rig;
-pub mod style;
+pub mod style_handle;

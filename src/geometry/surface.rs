@@ -7,10 +7,10 @@
 //! edges and through vertices. Such rays must not slip between triangles: the triangle test is watertight, and
 //! the boxes are padded, because the tree keeps them in single precision.
 
-mod tree;
+mod box_tree;
 mod wide;
 
-pub use tree::Tree;
+pub use box_tree::Tree;
 
 use super::bounds;
 use glam::{BVec4A, DVec3, Vec3A, Vec4};

@@ -1,10 +1,10 @@
 //! Hair that hangs below the chin: shorter with the body, laid down on it, parted before the eyes, and outside of it.
 
-use super::head::{frame_after, growth, head_map};
+use super::head_stages::{frame_after, growth, head_map};
 use super::memo::View;
 use crate::error::Result;
 use crate::shape::field::{Binding, BodyField, Field};
-use crate::shape::product::hair::Hanging;
+use crate::shape::product::hanging::Hanging;
 use crate::shape::product::part::Part;
 use crate::shape::product::parting::Parting;
 use glam::DVec3;

@@ -1,16 +1,16 @@
 //! Puts the stages in order: [`stages`] lists them, [`memo`] knows which to do again when something changes.
 //!
-//! [`Deformer`] is the state: what is given, and the memo. [`apply`] and [`morphs`] write what came out; [`report`] measures it.
+//! [`Deformer`] is the state: what is given, and the memo. [`apply`] and [`morphs`] write what came out; [`reporting`] measures it.
 //! [`rigging`] puts IV-B in order.
 
 mod apply;
 mod displacement;
 mod hair;
-mod head;
+mod head_stages;
 mod memo;
 pub mod morphs;
 pub mod places;
-mod report;
+mod reporting;
 mod result;
 mod rig_weights;
 pub mod rigging;

@@ -4,7 +4,7 @@ use crate::character::{Humanoid, MeshKind, Role, Weights};
 use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::progress::Progress;
-use crate::rig::eyes::Eye;
+use crate::rig::eyeballs::Eye;
 use crate::rig::heat::{HeatSystem, Held};
 use crate::rig::mesh_kinds::body_is_whole;
 use crate::rig::parts::hangs_from_head;

@@ -8,7 +8,7 @@
 use super::displacement::{self, Displacements, Ending};
 use super::memo::{Phase, Stage, Value, View};
 use super::morphs::{self, Shifts, Touched};
-use super::{hair, head, report};
+use super::{hair, head_stages, reporting};
 use crate::error::{Result, Warning};
 use crate::face::FaceShape;
 use crate::face::outline::{Outline, OutlineSources};
@@ -24,8 +24,8 @@ use crate::shape::figure::{Figure, extent};
 use crate::shape::paper;
 use crate::shape::placement::{Bindings, Body, Placement};
 use crate::shape::product;
-use crate::shape::product::hair::Hanging;
-use crate::shape::product::head::outline_sources;
+use crate::shape::product::face_input::outline_sources;
+use crate::shape::product::hanging::Hanging;
 use crate::shape::product::landmarks::HeadSources;
 use crate::shape::product::mirror::Mirror;
 use crate::shape::product::repair::Pushed;
@@ -106,19 +106,19 @@ stages! {
     // The head.
 
     /// The box of the face map, around what the head moves.
-    face_box: Option<(DVec3, DVec3)> = head::face_box, Face 1, [];
+    face_box: Option<(DVec3, DVec3)> = head_stages::face_box, Face 1, [];
     /// The younger face of Eqs. 12 and 13, as far as it does not fold.
     face: Face = squash_face, Face 0, [mode, stage, face_squash, face_curve];
     /// The head from front and side, and how it stands over the trunk (D30).
-    outline: Option<Outline> = head::outline, Face 1, [];
+    outline: Option<Outline> = head_stages::outline, Face 1, [];
     /// The table of the head (D30), and each vertex's way through it.
-    young: Option<Arc<YoungFace>> = head::make_young, Face 8, [
+    young: Option<Arc<YoungFace>> = head_stages::make_young, Face 8, [
         youth_eye, youth_lower, youth_nose, youth_cheek, youth_jaw, youth_skull, youth_ear, smile
     ];
     /// How far the head goes back over the chest (D30).
-    seat: Option<Seat> = head::seat, Deform 0, [];
+    seat: Option<Seat> = head_stages::seat, Deform 0, [];
     /// Body, face, flow and seat: the field of the head's vertices, all the way.
-    field: Field = head::field, Deform 0, [stage, youth, seat];
+    field: Field = head_stages::field, Deform 0, [stage, youth, seat];
 
     // Hair.
 
@@ -136,7 +136,7 @@ stages! {
     /// Amount, ground and height: what is left to do for all alike.
     finish: Finish = finish, Deform 1, [amount, height];
     /// What a person should know.
-    warnings: Vec<Warning> = report::warnings, Deform 0, [amount, stage, youth, youth_eye];
+    warnings: Vec<Warning> = reporting::warnings, Deform 0, [amount, stage, youth, youth_eye];
 
     // Asked for when results are written.
 
@@ -230,7 +230,7 @@ fn outline_of_head(view: &View) -> Result<OutlineSources> {
 fn shape_body(view: &View) -> Result<Body> {
     let (measured, style, options) = (view.measured()?, view.style(), &view.options);
     match options.mode {
-        Mode::Paper => paper::body::body(view.character(), &measured, style, options),
+        Mode::Paper => paper::equations::body(view.character(), &measured, style, options),
         Mode::Product => {
             let (parts, heads) = (view.parts()?, view.head_sources()?);
             view.part(0.0, 1.0, |progress| {
@@ -272,7 +272,7 @@ fn squash_face(view: &View) -> Result<Face> {
     // A head without a chin has no face to make younger.
     let measured = view.measured()?;
     let has_face = view.options.mode == Mode::Product && measured.anatomy.landmarks.chin_seen;
-    let by_mode = if has_face { PRODUCT_FACE_SQUASH * head::growth(view)? } else { 0.0 };
+    let by_mode = if has_face { PRODUCT_FACE_SQUASH * head_stages::growth(view)? } else { 0.0 };
     let squash = view.options.face_squash.unwrap_or(by_mode);
     let is_squashed = view.options.stage == LastStage::Face && squash != 0.0;
     let around = if is_squashed { *view.face_box()? } else { None };

@@ -21,13 +21,13 @@
 //! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
 //! | `candidates` | where else a doubted joint may be |
 //! | `placed` | the above in order: the way a character looks, kinds, joints |
-//! | `eyes` | eyeballs |
-//! | `skeleton` | joints as a tree, and the bones that weights start from |
+//! | `eyeballs` | eyeballs |
+//! | `weight_bones` | joints as a tree, and the bones that weights start from |
 //! | `wholeness` | whether the surface is whole enough for heat |
 //! | `parts` | what is one skin with the body and moves otherwise: long hair |
 //! | `heat` | weights of a whole body; `nearest` bones and whether they are seen |
 //! | `voxel` | weights of an open body by distances through its solid |
-//! | `transfer` | weights of clothes from the `skin` below, a `fill` where it says nothing, `rigid` things |
+//! | `transfer` | weights of clothes from the `skin` below, `inpaint` where it says nothing, `rigid` things |
 //!
 //! Constants say what was *seen* when they alone were changed by 30 %, on 23 rigged figures whose rigs were taken away,
 //! in the joints' distance from the artists' (`docs/constants.md`, `benches/constants.py`).
@@ -37,7 +37,7 @@ pub mod arm_choice;
 pub mod arm_curve;
 pub mod arms;
 pub mod candidates;
-pub mod eyes;
+pub mod eyeballs;
 pub mod facing;
 pub mod far;
 pub mod front_view;
@@ -51,11 +51,11 @@ pub mod mesh_kinds;
 pub mod parts;
 pub mod placed;
 pub mod silhouette;
-pub mod skeleton;
 pub mod solid;
 pub mod transfer;
 pub mod unit_figure;
 pub mod voxel;
+pub mod weight_bones;
 pub mod wholeness;
 
 use crate::character::Weights;

@@ -3,7 +3,7 @@
 use super::heights::Heights;
 use crate::character::Role;
 use crate::character::bones::HEAD_TOP;
-use crate::face::landmarks::FaceLandmarks;
+use crate::face::face_landmarks::FaceLandmarks;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::profile::Profile;
 use serde::{Deserialize, Serialize};

@@ -4,10 +4,10 @@
 //! is a chain of stages, each a map of the place that the one before gives, at a binding that stays; Jacobians multiply
 //! ([`Mapped::then`]). What is done last is the same in both modes: [`Finish`].
 
-use super::paper::field::{BoneBinding, PaperField};
+use super::paper::bone_field::{BoneBinding, PaperField};
 use super::product::binding::PartBinding;
-use super::product::field::PartField;
 use super::product::part::Part;
+use super::product::parts_field::PartField;
 use crate::face::FaceShape;
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};

@@ -3,8 +3,8 @@
 use super::Coefficient;
 use super::field::{Binding, BodyField, Field, Finish};
 use super::figure::{Figure, extent};
-use super::product::field::PartField;
 use super::product::part::Part;
+use super::product::parts_field::PartField;
 use crate::character::{Character, Role};
 use crate::error::Warning;
 use crate::face::FaceShape;

@@ -9,7 +9,7 @@ use superdeform::internals::ffi::character::*;
 use superdeform::internals::ffi::deformer::*;
 use superdeform::internals::ffi::lifetime::*;
 use superdeform::internals::ffi::options::*;
-use superdeform::internals::ffi::style::*;
+use superdeform::internals::ffi::style_handle::*;
 use superdeform::{Character, Deformed, FaceHints, Humanoid, Mesh, MeshKind, MorphTarget, Role, Shade};
 
 /// A status with its sentence.

@@ -5,7 +5,7 @@ use superdeform::internals::face::eyes::{Eye, closes_an_eye};
 use superdeform::internals::face::raster::{DepthMap, Window};
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
-use superdeform::internals::shape::product::head::head_frame;
+use superdeform::internals::shape::product::face_input::head_frame;
 use superdeform::{Character, MeshKind, MorphTarget, Role};
 
 /// Squares across an eye.

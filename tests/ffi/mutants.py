@@ -45,7 +45,7 @@ MUTANTS = [
      "if own as usize != size && !MUTANT {", "lifecycle"),
     ("Jacobians are given row by row", "deformer/mod.rs", "|point| point.jacobian.to_cols_array()",
      "|point| if MUTANT { point.jacobian.transpose() } else { point.jacobian }.to_cols_array()", "contract"),
-    ("a report stays after a change", "deformer/state.rs", "self.report = OnceLock::new();",
+    ("a report stays after a change", "deformer/deformer_state.rs", "self.report = OnceLock::new();",
      "if !MUTANT { self.report = OnceLock::new(); }", "contract"),
     ("memory is not asked for", "memory.rs", "let mut held = reserve(bytes);",
      "if MUTANT {\n        return work();\n    }\n    let mut held = reserve(bytes);", "memory"),

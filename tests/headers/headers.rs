@@ -298,7 +298,7 @@ fn comments_say_the_ranges_and_defaults_of_the_table() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(seen >= 40);
     let heads = find("heads").unwrap().values.to_string();
-    assert!(source("style").contains(&format!("heads: {heads}")), "{heads}");
+    assert!(source("style_handle").contains(&format!("heads: {heads}")), "{heads}");
 }
 
 /// The shared library: that of `SUPERDEFORM_LIBRARY`, or the one that cargo links beside this test.

@@ -26,7 +26,7 @@ pub fn root() -> PathBuf {
 
 /// The modules of `src/ffi` that are the header's sections, in order.
 pub const SECTIONS: [&str; 9] =
-    ["basics", "lifetime", "jobs", "options", "character", "rig", "style", "deformer", "all_at_once"];
+    ["basics", "lifetime", "jobs", "options", "character", "rig", "style_handle", "deformer", "all_at_once"];
 
 /// What stands before each exported function.
 pub const EXPORT: &str = "#[cfg_attr(not(target_arch = \"wasm32\"), ffi_export)]\n#[cfg_attr(target_arch = \"wasm32\", unsafe(no_mangle))]";
@@ -47,7 +47,7 @@ fn text_of(section: &str) -> String {
     }
     let source =
         read(&format!("{section}/mod.rs")).unwrap_or_else(|| panic!("there is no src/ffi/{section}"));
-    let Some(types) = read(&format!("{section}/types.rs")) else { return source };
+    let Some(types) = read(&format!("{section}/{section}_types.rs")) else { return source };
     let (comment, rest) = source.split_once("\n\n").expect("a comment and items");
     let types = types.split_once("\n\n").expect("a comment and items").1;
     format!("{comment}\n\n{types}\n{rest}")

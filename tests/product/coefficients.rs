@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use superdeform::internals::shape::product::anatomy::{Anatomy, Proportions};
 use superdeform::internals::shape::product::coefficients::{Goal, heads_of, lost, part_coefficients};
-use superdeform::internals::shape::product::groups::PartGroups;
+use superdeform::internals::shape::product::part_settings::PartGroups;
 use superdeform::internals::shape::product::scales::{PartCoefficients, Scale};
 use superdeform::{GroupSettings, Options, Stage, Warning};
 

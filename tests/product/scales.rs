@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use superdeform::internals::shape::group::Coefficient;
-use superdeform::internals::shape::product::groups::PartGroups;
+use superdeform::internals::shape::product::part_settings::PartGroups;
 use superdeform::internals::shape::product::scales::{HeadScale, PartCoefficients, Scale};
 use superdeform::{ErrorKind, GroupSettings};
 

@@ -4,14 +4,14 @@
 //! them, the head ends the branch between the arms. Branches that move no vertex (end joints, helpers) are left
 //! out where the meshes have weights.
 
-mod arms;
-mod legs;
-mod tree;
+mod arm_roles;
+mod joint_tree;
+mod leg_roles;
 
 use super::humanoid::{LEFT_ARM, LEFT_FINGERS, LEFT_LEG};
 use super::{Humanoid, Mesh, Role, Skeleton};
 use glam::{DVec3, Vec3};
-use tree::Tree;
+use joint_tree::Tree;
 
 /// The head is the first joint above the arms that moves at least this share of what the heaviest one moves. Seen:
 /// ±30 % changes no role.

@@ -10,16 +10,16 @@ use super::memory;
 use crate::character::mesh::place;
 use crate::character::{Character, Mesh, MorphTarget};
 use crate::face::eyes::closes_an_eye;
+use character_state::CharacterState;
 use core::ffi::c_char;
 use safer_ffi::prelude::*;
-use state::CharacterState;
 use std::sync::{Arc, RwLock};
 
+pub mod character_state;
+pub mod character_types;
 pub mod read;
-pub mod state;
-pub mod types;
 
-pub use types::*;
+pub use character_types::*;
 
 /// Makes an empty character.
 ///

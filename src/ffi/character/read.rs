@@ -1,6 +1,6 @@
 //! Skeletons and meshes, from the caller's arrays to the library's.
 
-use super::types::{
+use super::character_types::{
     SDEF_TYPE_DEFAULT, SDEF_TYPE_F32, SDEF_TYPE_U8, SDEF_TYPE_U16, SDEF_TYPE_U32, SdefFaceHints, SdefImage,
     SdefMesh, SdefSkeleton,
 };

@@ -1,6 +1,6 @@
 //! Colliders as hosts give them.
 
-use super::types::*;
+use super::deformer_types::*;
 use crate::ffi::arrays::Input;
 use crate::ffi::basics::{SDEF_ELEMENT_COLLIDER, SDEF_ELEMENT_POINT};
 use crate::ffi::guard::{Failure, Outcome};

@@ -14,19 +14,19 @@ use crate::progress::Progress;
 use crate::report::FigureReport;
 use crate::shape::GroupShape;
 use core::ffi::{c_char, c_void};
+use deformer_state::DeformerState;
 use glam::DVec3;
 use safer_ffi::prelude::*;
-use state::DeformerState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock};
 use targets::Deltas;
 
 mod colliders;
-pub mod state;
+pub mod deformer_state;
+pub mod deformer_types;
 mod targets;
-pub mod types;
 
-pub use types::*;
+pub use deformer_types::*;
 
 /// Makes the deformation that gives a character a style. What it needs of the character is read before it begins: that
 /// may be changed meanwhile.

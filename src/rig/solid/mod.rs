@@ -6,13 +6,13 @@ pub mod branches;
 mod fill;
 pub mod geodesic;
 pub mod sides;
-mod slice;
+mod solid_slice;
 mod voxels;
 
 use crate::error::Result;
 use crate::room::{self, Of};
 use glam::{DVec3, IVec3};
-pub use slice::{Lobes, Slice};
+pub use solid_slice::{Lobes, Slice};
 pub use voxels::Voxels;
 
 /// Cells over the height of a figure: one is 0.006 H, a fifth of the least limb.

@@ -5,7 +5,7 @@
 //! (weights down to -0.09 on a skirt, which clamping turns into creases) and a harmonic one cannot; the thresholds are
 //! ramps, so that a vertex near one does not jump.
 
-mod fill;
+mod inpaint;
 mod rigid;
 mod skin;
 
@@ -16,8 +16,8 @@ use crate::geometry::{
     weld,
 };
 use crate::parallel;
-use fill::{EdgeWeights, Fill, is_free};
 use glam::DVec3;
+use inpaint::{EdgeWeights, Fill, is_free};
 pub use rigid::rigid_weights;
 use skin::{Body, normals};
 pub use skin::{Skin, Source};

@@ -2,13 +2,13 @@
 
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, thumb};
+use super::part_weights::part_weights;
 use super::pieces::{Attachment, Piece, PieceSources, Pieces, touching};
 use super::profile::chains::arm_share;
 use super::profile::skirts::skirt_vertices;
-use super::weights::part_weights;
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::error::Result;
-use crate::face::landmarks::FaceLandmarks;
+use crate::face::face_landmarks::FaceLandmarks;
 use crate::face::stage::FaceBinding;
 use crate::geometry::{Weld, bounds, components, smoothstep};
 use crate::progress::Progress;

@@ -3,9 +3,9 @@
 use super::anatomy::Proportions;
 use super::binding::PartBindings;
 use super::coefficients::{Goal, Limits, lost, part_coefficients};
-use super::field::PartField;
-use super::groups::PartGroups;
 use super::landmarks::{HeadPlacement, HeadSources};
+use super::part_settings::PartGroups;
+use super::parts_field::PartField;
 use super::profile::{Profile, Slices, profile_of, strengths};
 use super::scales::PartCoefficients;
 use super::target::ProductTarget;

@@ -5,7 +5,7 @@
 //! linear maps cannot carry (limbs that are stubs, feet larger than the leg); every bound on a length that acts is warned of.
 
 use super::anatomy::Proportions;
-use super::groups::PartGroups;
+use super::part_settings::PartGroups;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::error::{Result, Warning};
 use crate::face::rows::{CHILD_SKULL, CHILD_SKULL_DEPTH};

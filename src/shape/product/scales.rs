@@ -1,6 +1,6 @@
 //! The scales of all parts (product mode), and what a user sets of them.
 
-use super::groups::PartGroups;
+use super::part_settings::PartGroups;
 use crate::character::bones::Group;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::by_key;

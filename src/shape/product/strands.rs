@@ -2,7 +2,7 @@
 //!
 //! All is found by sums over places and their links, so that no last digit decides anything.
 
-use super::head::head_frame;
+use super::face_input::head_frame;
 use super::joint_bindings::{nearness, weight_rows};
 use super::outside::volume;
 use super::part::Part;

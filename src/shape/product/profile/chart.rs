@@ -1,17 +1,17 @@
 //! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
-use super::measure::{BodyFrame, BodyLines, on_limb};
+use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
-use super::scales::{Scales, SliceScales, Strengths, scales};
+use super::slice_scales::{Scales, SliceScales, Strengths, scales};
 use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
 use crate::geometry::{self, smoothstep};
 use crate::shape::Measured;
-use crate::shape::product::field::PartField;
 use crate::shape::product::part::Part;
+use crate::shape::product::parts_field::PartField;
 use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::{DVec2, DVec3};
 

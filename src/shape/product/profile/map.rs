@@ -5,10 +5,10 @@
 
 use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::measure::{BodyFrame, BodyLines, HAND_FADE, curls, droop, droop_slope};
+use super::cuts::{BodyFrame, BodyLines, HAND_FADE, curls, droop, droop_slope};
 use super::relief::MOST_ROWS;
-use super::scales::Scales;
 use super::slab::slab;
+use super::slice_scales::Scales;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
@@ -459,7 +459,7 @@ fn level_tables(
         let t = (crotch - y) / leg_length;
         let places: Vec<f64> =
             scales.skirt.iter().map(|skirt| station_at(LEG_STATIONS, skirt.station)).collect();
-        let at = |number: &dyn Fn(&super::scales::SkirtScale) -> f64| {
+        let at = |number: &dyn Fn(&super::slice_scales::SkirtScale) -> f64| {
             let knots: Vec<f64> = scales.skirt.iter().map(number).collect();
             monotone_cubic(&places, &knots, t)
         };

@@ -11,21 +11,21 @@ pub mod curve;
 pub mod map;
 pub mod radius_map;
 pub mod relief;
-pub mod scales;
 pub mod skirts;
 pub mod slab;
+pub mod slice_scales;
 pub mod smooth;
 pub mod station;
 pub mod wanted;
 
-mod measure;
+mod cuts;
 mod numbers;
 
 pub use chart::{Chart, Slices};
+pub use cuts::{BodyFrame, BodyLines, measure_profile};
 pub use map::BodyMap;
-pub use measure::{BodyFrame, BodyLines, measure_profile};
 pub use numbers::CHAINS;
-pub use scales::{Scales, Strengths, flesh, scales};
+pub use slice_scales::{Scales, Strengths, flesh, scales};
 pub use wanted::{profile_of, strengths, wanted_of};
 
 use serde::{Deserialize, Serialize};

@@ -5,8 +5,8 @@
 
 use super::chains::{Chain, Chains, arm_share};
 use super::curve::{BELL_ENDS, smoothed};
+use super::cuts::{Body, BodyFrame};
 use super::map::on_bones;
-use super::measure::{Body, BodyFrame};
 use super::radius_map::{RadiusMap, Ring, reaches_around};
 use super::station::{centred, surface};
 use crate::geometry::slice::{Outline, Planes, RAYS};

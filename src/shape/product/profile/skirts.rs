@@ -1,6 +1,6 @@
 //! Which vertices are a skirt's, a robe's or the tails' of a coat: they hang around both legs and follow neither.
 
-use super::measure::{BodyFrame, SKIRT_OVER_MIDDLE};
+use super::cuts::{BodyFrame, SKIRT_OVER_MIDDLE};
 use crate::geometry::bounds_by_group;
 use crate::geometry::weld::{Weld, components, neighbours};
 use crate::shape::figure::Figure;

@@ -1,11 +1,11 @@
 //! Which profile a style wants, and how much of it the options take.
 
 use super::canonical::{canonical, canonical_strength};
-use super::measure::BodyFrame;
+use super::cuts::BodyFrame;
 use super::{Profile, Strengths};
 use crate::character::bones::Group;
 use crate::options::{GroupSettings, Options, Stage};
-use crate::shape::product::groups::PartGroups;
+use crate::shape::product::part_settings::PartGroups;
 use crate::shape::style::Style;
 
 /// The profile that `style` and `options` ask for, and how much of it; `None` where they ask for none.

@@ -5,7 +5,7 @@
 //! thickness, ties and ribbons their shape, and tails flare as they did. What lay on a body that has become narrower hangs down
 //! instead of standing out.
 
-use super::field::PartField;
+use super::parts_field::PartField;
 use super::repair::Layer;
 use super::scales::HeadScale;
 use super::strands::{Link, Strands};

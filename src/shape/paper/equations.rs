@@ -1,7 +1,7 @@
 //! The body of paper mode: coefficients (Eqs. 9-11), skeleton (Eqs. 1-4), mesh (Eqs. 5-8).
 
-use super::coefficients::coefficients;
-use super::field::{BoneBinding, BoneField, PaperField};
+use super::alpha_beta::coefficients;
+use super::bone_field::{BoneBinding, BoneField, PaperField};
 use super::shorten::shorten;
 use crate::character::bones::Bone;
 use crate::character::{Character, MeshKind, Role};

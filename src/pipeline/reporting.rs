@@ -1,7 +1,7 @@
 //! The numbers of a run.
 
 use super::memo::View;
-use super::{Deformed, Deformer, head};
+use super::{Deformed, Deformer, head_stages};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
 use crate::geometry::WindingGroups;
@@ -31,7 +31,7 @@ pub fn warnings(view: &View) -> Result<Vec<Warning>> {
         warnings.extend(body.heads_left.clone());
     }
     warnings.extend(view.face()?.warning.clone());
-    warnings.extend(head::eyes_not_found(view)?);
+    warnings.extend(head_stages::eyes_not_found(view)?);
     Ok(warnings)
 }
 

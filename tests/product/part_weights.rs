@@ -1,4 +1,4 @@
-//! `weights.rs` and `binding.rs`: what moves each vertex of a person made of tubes.
+//! `part_weights.rs` and `binding.rs`: what moves each vertex of a person made of tubes.
 
 use crate::people::{Person, Ring, Shape};
 use crate::tubes::{Tubes, add_mesh, blended, crowd, ellipsoid, fine, mirrored_weights};

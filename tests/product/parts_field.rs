@@ -1,4 +1,4 @@
-//! `field.rs`: the parts' maps, worked by hand, and where they meet.
+//! `parts_field.rs`: the parts' maps, worked by hand, and where they meet.
 
 use crate::people::Person;
 use crate::tubes::{Tubes, blended, crowd, jacobian_error, mirrored_weights, numbers};
@@ -10,8 +10,8 @@ use superdeform::internals::geometry::Mapped;
 use superdeform::internals::shape::field::{Binding, BodyField, Field, Finish};
 use superdeform::internals::shape::product::anatomy::Anatomy;
 use superdeform::internals::shape::product::binding::{PartBinding, PartBindings};
-use superdeform::internals::shape::product::field::PartField;
 use superdeform::internals::shape::product::part::{PART_COUNT, Part};
+use superdeform::internals::shape::product::parts_field::PartField;
 use superdeform::internals::shape::product::pieces::{Attachment, Piece};
 use superdeform::internals::shape::product::scales::{HeadScale, PartCoefficients, Scale};
 use superdeform::{FaceCurve, Role};

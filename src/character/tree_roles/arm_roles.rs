@@ -1,6 +1,6 @@
 //! Arms in a tree of joints: a pair of like branches beside what rises between them.
 
-use super::tree::Tree;
+use super::joint_tree::Tree;
 use glam::DVec3;
 
 /// Points against an arm for each joint between shoulder, elbow and wrist that is left out. Seen: ±30 % changes no

@@ -1,4 +1,4 @@
-//! `strands.rs` and `hair.rs`: kinds of hair on an adult and on a super-deformed figure, made like one.
+//! `strands.rs` and `hanging.rs`: kinds of hair on an adult and on a super-deformed figure, made like one.
 
 use crate::clothes::Winding;
 use crate::common_hair::{KINDS, Kind, vertices, with_hair};

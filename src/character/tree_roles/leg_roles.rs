@@ -1,6 +1,6 @@
 //! Legs in a tree of joints: a pair of like branches that reach the ground.
 
-use super::tree::Tree;
+use super::joint_tree::Tree;
 use glam::DVec3;
 
 /// A leg begins above this height, in heights of the figure. Seen: ±30 % changes no role.

@@ -18,7 +18,7 @@ use crate::shape::measured::is_of_head;
 use crate::shape::placement::{Body, renewed};
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::coefficients::lost;
-use crate::shape::product::head::head_frame;
+use crate::shape::product::face_input::head_frame;
 use crate::shape::product::part::Part;
 use crate::shape::style::Style;
 use glam::DVec3;

@@ -1,9 +1,9 @@
-//! `head.rs`: where a figure's head is, and what its face and its seat are read from.
+//! `face_input.rs`: where a figure's head is, and what its face and its seat are read from.
 
 use crate::people::Person;
 use crate::tubes::{Tubes, add_mesh, crowd, ellipsoid};
 use superdeform::internals::shape::field::Binding;
-use superdeform::internals::shape::product::head::{head, head_frame, outline_sources};
+use superdeform::internals::shape::product::face_input::{head, head_frame, outline_sources};
 use superdeform::internals::shape::product::part::Part;
 use superdeform::{MeshKind, Role};
 

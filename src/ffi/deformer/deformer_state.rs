@@ -1,12 +1,12 @@
 //! What stands behind a handle of a deformer, and where its results go.
 
-use super::types::SdefMeshResult;
+use super::deformer_types::SdefMeshResult;
 use crate::character::Character;
 use crate::character::mesh::place;
 use crate::error::Warning;
 use crate::ffi::arrays::{Output, Structs};
 use crate::ffi::basics::SDEF_STATUS_BUFFER_TOO_SMALL;
-use crate::ffi::character::state::Ready;
+use crate::ffi::character::character_state::Ready;
 use crate::ffi::guard::{self, Failure, Outcome};
 use crate::ffi::memory;
 use crate::options::Options;
