@@ -76,7 +76,7 @@ pub fn thread_count(asked: usize) -> usize {
 }
 
 /// Into how many shares `count` items are worth being cut, of which fewer than `least` are not worth a thread.
-pub fn share_count(threads: usize, count: usize, least: usize) -> usize {
+fn share_count(threads: usize, count: usize, least: usize) -> usize {
     // The system takes longer to say how many cores it has than a small work takes.
     match count / least {
         0 | 1 => 1,
@@ -138,6 +138,39 @@ pub fn collect_with<S, T: Send>(
         }
     });
     all
+}
+
+/// Does `work` for shares of `count` items, each with its part of `place`, side by side where there is enough to do.
+///
+/// - `room`: what it works in, where there is one share; each of several gets its own.
+/// - `cut`: a place for so many items, and for those after them.
+pub fn in_shares<R: Default, P: Send>(
+    threads: usize,
+    count: usize,
+    least: usize,
+    room: &mut R,
+    mut place: P,
+    cut: impl Fn(P, usize) -> (P, P),
+    work: impl Fn(&mut R, Range<usize>, P) + Sync,
+) {
+    let share = count.div_ceil(share_count(threads, count, least));
+    let mut shares = Vec::new();
+    let mut first = 0;
+    while first + share < count {
+        let (of_share, rest) = cut(place, share);
+        shares.push(Mutex::new(Some((first..first + share, of_share))));
+        (first, place) = (first + share, rest);
+    }
+    if shares.is_empty() {
+        return work(room, 0..count, place);
+    }
+    shares.push(Mutex::new(Some((first..count, place))));
+    collect(threads, shares.len(), 1, |index| {
+        let share = shares[index].lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some((items, place)) = share {
+            work(&mut R::default(), items, place);
+        }
+    });
 }
 
 /// `make` of every index below `count`, in order, by `jobs`. What these leave out is done here; what they do twice, once.

@@ -13,6 +13,11 @@ use glam::DVec3;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// By the names of the roles.
+pub(crate) fn by_name<T>(values: impl Iterator<Item = (Role, T)>) -> BTreeMap<String, T> {
+    values.map(|(role, value)| (role.name().to_string(), value)).collect()
+}
+
 /// What was measured on one character.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FigureReport {
@@ -127,8 +132,7 @@ impl FigureReport {
     pub fn of(measured: &Measured, roles: &BTreeSet<Role>, options: &Options) -> Self {
         let heights = measured.anatomy.landmarks.heights;
         let frame = &measured.figure.frame;
-        let in_model = |(role, &p): (&Role, _)| (role.name().to_string(), frame.to_model(p).to_array());
-        let joints: BTreeMap<String, [f64; 3]> = measured.joints.iter().map(in_model).collect();
+        let joints = by_name(measured.joints.iter().map(|(&role, &p)| (role, frame.to_model(p).to_array())));
         Self {
             height: measured.figure.height(),
             head_length: match options.mode {

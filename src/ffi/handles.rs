@@ -7,7 +7,7 @@ use super::basics::*;
 use super::character::character_state::CharacterState;
 use super::deformer::deformer_state::DeformerState;
 use super::guard::{Failure, Outcome};
-use crate::pipeline::Style;
+use crate::shape::style::Style;
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError, TryLockResult};
 
 /// What a handle stands for.

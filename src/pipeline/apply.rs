@@ -9,15 +9,13 @@ use crate::character::{Joint, Mesh, MorphTarget};
 use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
-use crate::shape::directions::{Jacobians, Moved, PIECE, RestTriangles, Room};
+use crate::shape::directions::{BLOCK, Moved, PIECE, RestTriangles, Room};
 use crate::shape::field::Binding;
-use crate::shape::turn::{LANES, Turn, each_of, four_at, four_of, transposed};
+use crate::shape::placement::Placement;
+use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3, Vec4};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
-/// Positions that are written together.
-const BLOCK: usize = 256;
 /// Fewer positions than this are not worth a thread: it takes longer to start than to write them.
 const LEAST_POSITIONS: usize = 100_000;
 /// Fewer pieces than this are not worth a thread.
@@ -116,42 +114,21 @@ impl Deformer {
             return joints.iter().map(|joint| joint.position()).collect();
         }
         let placement = self.placement();
-        let eyes = self.eye_joints();
-        let frame = &placement.figure.frame;
-        let place = |index: usize, joint: &Joint| match eyes.iter().find(|(eye, _)| *eye == index) {
-            Some(&(_, at)) => frame.to_model(at + self.joint_correction(index)),
-            None => match placement.bindings.joints[index] {
-                Binding::Fixed => joint.position(),
-                _ => frame.to_model(placement.joint(index) + self.joint_correction(index)),
-            },
+        let place = |(index, joint): (usize, &Joint)| {
+            let to = match (eye_joint(&placement, index), &placement.bindings.joints[index]) {
+                (Some(eye), _) => eye,
+                (None, Binding::Fixed) => return joint.position(),
+                (None, Binding::Parts(_) | Binding::Bones(_)) => placement.joint(index),
+            };
+            placement.figure.frame.to_model(to + self.joint_correction(index))
         };
-        joints.iter().enumerate().map(|(index, joint)| place(index, joint)).collect()
+        joints.iter().enumerate().map(place).collect()
     }
 
     /// What is added to where the field takes a joint, canonical frame.
     pub(super) fn joint_correction(&self, joint: usize) -> DVec3 {
         let whole = self.displacements.joints.get(joint).copied().unwrap_or_default();
         self.field.finish.share() * whole
-    }
-
-    /// Joints that play eyes, and where they are now, canonical frame: at the same place in the eye that they turn, which the
-    /// field moves as it moves the face before it.
-    fn eye_joints(&self) -> Vec<(usize, DVec3)> {
-        let placement = self.placement();
-        let figure = placement.figure;
-        let place = |(joint, vertices): &(usize, Vec<u32>)| {
-            let before: Vec<DVec3> =
-                vertices.iter().map(|&vertex| figure.positions[vertex as usize]).collect();
-            let after = placement.vertices(vertices);
-            let middle = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
-            let (from, to) = (middle(&before), middle(&after));
-            let size = |points: &[DVec3], middle: DVec3| {
-                points.iter().map(|p| p.distance_squared(middle)).sum::<f64>().sqrt()
-            };
-            let scale = size(&after, to) / size(&before, from);
-            scale.is_finite().then(|| (*joint, to + scale * (figure.joints[*joint] - from)))
-        };
-        placement.bindings.eyes.iter().filter_map(place).collect()
     }
 
     /// The vertices of a mesh.
@@ -165,19 +142,19 @@ impl Deformer {
         let rest = &self.inputs.character.meshes[mesh].positions;
         let displacements = &self.displacements.vertices[self.vertices(mesh)];
         let ending = Ending::of(&self.field.finish, &self.target().figure.frame);
-        let write = |(): &mut (), first: usize, count: usize, mut place: V| {
+        let write = |(): &mut (), vertices: Range<usize>, mut place: V| {
             let mut block = [Vec3::ZERO; BLOCK];
-            for start in (first..first + count).step_by(BLOCK) {
-                let end = (start + BLOCK).min(first + count);
+            for start in vertices.clone().step_by(BLOCK) {
+                let end = (start + BLOCK).min(vertices.end);
                 let from = rest[start..end].iter().zip(&displacements[start..end]);
                 for (to, (&p, &displacement)) in block.iter_mut().zip(from) {
                     *to = ending.place(p, displacement);
                 }
-                place.write(start - first, &block[..end - start]);
+                place.write(start - vertices.start, &block[..end - start]);
             }
         };
         let threads = self.inputs.options.thread_count;
-        in_shares(threads, rest.len(), LEAST_POSITIONS, &mut (), place, Place::cut, write);
+        parallel::in_shares(threads, rest.len(), LEAST_POSITIONS, &mut (), place, Place::cut, write);
     }
 
     /// Writes what the directions of a mesh turn into.
@@ -189,32 +166,29 @@ impl Deformer {
         room: &mut Room,
     ) {
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
-        let pieces = rest.pieces(mesh);
-        let start = self.vertices(mesh).start;
+        let directions = (&normals[..], if places.1.is_some() { &tangents[..] } else { &[] });
         let cut = |(normals, tangents): (Option<V>, Option<W>), pieces: usize| {
             let (normals, tangents) = (normals.cut(pieces * PIECE), tangents.cut(pieces * PIECE));
             ((normals.0, tangents.0), (normals.1, tangents.1))
         };
-        let write = |room: &mut Room, first: usize, count: usize, to: (Option<V>, Option<W>)| {
-            let (mut to_normals, mut to_tangents) = to;
-            let mut block = Directions { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] };
-            for (at, piece) in pieces.clone().skip(first).take(count).enumerate() {
-                let jacobians = rest.jacobians(piece, &self.moved(), room);
-                let vertices = rest.vertices(piece);
-                for from in (0..vertices.len()).step_by(BLOCK) {
-                    let count = BLOCK.min(vertices.len() - from);
-                    let of_mesh = vertices.start - start + from..vertices.start - start + from + count;
-                    let normals = normals.get(of_mesh.clone()).unwrap_or_default();
-                    let tangents = tangents.get(of_mesh).filter(|_| to_tangents.is_some());
-                    let of_field = |index| self.turn_of_field(vertices.start + from + index);
-                    block.turn(&jacobians, from, normals, tangents.unwrap_or_default(), of_field);
-                    to_normals.write(at * PIECE + from, &block.normals[..count]);
-                    to_tangents.write(at * PIECE + from, &block.tangents[..count]);
-                }
-            }
+        let write = |room: &mut Room,
+                     pieces: Range<usize>,
+                     (mut to_normals, mut to_tangents): (Option<V>, Option<W>)| {
+            let of_field = |vertex| self.turn_of_field(vertex);
+            rest.turn(
+                (mesh, pieces),
+                &self.moved(),
+                of_field,
+                directions,
+                room,
+                |first, normals, tangents| {
+                    to_normals.write(first, normals);
+                    to_tangents.write(first, tangents);
+                },
+            );
         };
-        let threads = self.inputs.options.thread_count;
-        in_shares(threads, pieces.len(), LEAST_PIECES, room, places, cut, write);
+        let (threads, pieces) = (self.inputs.options.thread_count, rest.piece_count(mesh));
+        parallel::in_shares(threads, pieces, LEAST_PIECES, room, places, cut, write);
     }
 
     pub(super) fn moved(&self) -> Moved<'_> {
@@ -233,85 +207,20 @@ impl Deformer {
     }
 }
 
-/// Directions that are written together.
-struct Directions {
-    normals: [Vec3; BLOCK],
-    tangents: [Vec4; BLOCK],
-}
-
-impl Directions {
-    /// Turns those of the vertices of a piece that follow `from`, none of a kind that is not there.
-    ///
-    /// `of_field`: for a vertex that has no Jacobian.
-    fn turn(
-        &mut self,
-        jacobians: &Jacobians,
-        from: usize,
-        normals: &[Vec3],
-        tangents: &[Vec4],
-        of_field: impl Fn(usize) -> Turn,
-    ) {
-        let count = normals.len().max(tangents.len());
-        for four in (0..count).step_by(LANES) {
-            let (turns, are_sound) = jacobians.of_four(from + four);
-            let new = (!normals.is_empty()).then(|| turns.normals(four_of(four_at(normals, four))));
-            if let Some(new) = new {
-                let to = each_of(new, Vec4::ZERO).map(Vec4::truncate);
-                self.normals[four..four + LANES].copy_from_slice(&to);
-            }
-            if !tangents.is_empty() {
-                let [x, y, z, sides] = transposed(four_at(tangents, four));
-                let to = each_of(turns.tangents([x, y, z], new), sides);
-                self.tangents[four..four + LANES].copy_from_slice(&to);
-            }
-            if !are_sound.all() {
-                for index in (four..count.min(four + LANES)).filter(|index| !are_sound.test(index - four)) {
-                    self.turn_one(index, &of_field(index), normals, tangents);
-                }
-            }
-        }
-    }
-
-    /// Turns those of one vertex.
-    fn turn_one(&mut self, index: usize, turn: &Turn, normals: &[Vec3], tangents: &[Vec4]) {
-        let normal = normals.get(index).map(|&normal| turn.normal(normal));
-        self.normals[index] = normal.unwrap_or_default();
-        if let Some(tangent) = tangents.get(index) {
-            self.tangents[index] = turn.tangent(tangent.truncate(), normal).extend(tangent.w);
-        }
-    }
-}
-
-/// Does `write` of so many items from one of them on, in shares side by side where there is enough to do.
-///
-/// - `room`: what it works in, where there is one share; each of several gets its own.
-/// - `cut`: a place for the items before one of them, and for the rest.
-fn in_shares<R: Default, P: Send>(
-    threads: usize,
-    count: usize,
-    least: usize,
-    room: &mut R,
-    place: P,
-    cut: impl Fn(P, usize) -> (P, P),
-    write: impl Fn(&mut R, usize, usize, P) + Sync,
-) {
-    let share_count = parallel::share_count(threads, count, least);
-    if share_count == 1 {
-        return write(room, 0, count, place);
-    }
-    let share = count.div_ceil(share_count);
-    let mut shares = Vec::with_capacity(share_count);
-    let mut rest = place;
-    for _ in 1..count.div_ceil(share) {
-        let (first, others) = cut(rest, share);
-        shares.push(Mutex::new(Some(first)));
-        rest = others;
-    }
-    shares.push(Mutex::new(Some(rest)));
-    parallel::collect(threads, shares.len(), 1, |index| {
-        if let Some(place) = shares[index].lock().unwrap_or_else(PoisonError::into_inner).take() {
-            let first = index * share;
-            write(&mut R::default(), first, share.min(count - first), place);
-        }
-    });
+/// Where a joint that plays an eye is now, canonical frame: at the same place in the eye that it turns, which the field moves as
+/// it moves the face before it. `None` for every other joint.
+fn eye_joint(placement: &Placement, joint: usize) -> Option<DVec3> {
+    let figure = placement.figure;
+    let middle_and_size = |points: Vec<DVec3>| {
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        (middle, points.iter().map(|p| p.distance_squared(middle)).sum::<f64>().sqrt())
+    };
+    let place = |(_, vertices): &(usize, Vec<u32>)| {
+        let at_rest = vertices.iter().map(|&vertex| figure.positions[vertex as usize]);
+        let (from, before) = middle_and_size(at_rest.collect());
+        let (to, after) = middle_and_size(placement.vertices(vertices));
+        let scale = after / before;
+        scale.is_finite().then(|| to + scale * (figure.joints[joint] - from))
+    };
+    placement.bindings.eyes.iter().filter(|(eye, _)| *eye == joint).find_map(place)
 }

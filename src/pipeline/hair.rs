@@ -3,7 +3,7 @@
 use super::head_stages::{frame_after, growth, head_map};
 use super::memo::View;
 use crate::error::Result;
-use crate::shape::field::{Binding, BodyField, Field};
+use crate::shape::field::{Binding, BodyField, Field, Finish};
 use crate::shape::product::hanging::Hanging;
 use crate::shape::product::part::Part;
 use crate::shape::product::parting::Parting;
@@ -62,8 +62,8 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
     let (measured, options, vertices) = (view.measured()?, &view.options, &strands.worn.vertices);
     let lay = growth(view)? * options.hair_lay;
     // Before amount, whole and ground, as all of the head's stages.
-    let of_head = view.field()?;
-    let field = Field { finish: body.with_face(view.face()?.shape).finish, ..(*of_head).clone() };
+    let finish = Finish { face: view.face()?.shape, ..Finish::default() };
+    let field = Field { finish, ..(*view.field()?).clone() };
     let mut offsets = view.pushed()?.dense(measured.figure.positions.len());
     let placement = body.placement(&measured.figure, &field, &offsets, view.threads());
     let mut after = placement.all_vertices();
@@ -111,9 +111,7 @@ pub fn hair(view: &View) -> Result<Option<Hair>> {
         })
         .collect();
     let mut hair = Hair { offsets, joint_offsets: Vec::new(), joints, field };
-    let bindings = &body.bindings.joints;
-    hair.joint_offsets = (0..bindings.len())
-        .map(|joint| hair.offset(&bindings[joint], joint, measured.figure.joints[joint]))
-        .collect();
+    let bound = body.bindings.joints.iter().zip(&measured.figure.joints).enumerate();
+    hair.joint_offsets = bound.map(|(joint, (binding, &rest))| hair.offset(binding, joint, rest)).collect();
     Ok(Some(hair))
 }

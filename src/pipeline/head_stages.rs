@@ -20,7 +20,6 @@ use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::coefficients::lost;
 use crate::shape::product::face_input::head_frame;
 use crate::shape::product::part::Part;
-use crate::shape::style::Style;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -85,13 +84,9 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let place = head_map(&measured, &field, frame);
     // A head that is only moved or made larger has the same face, to the bit.
     let face = face.mapped(|p| place(p).to_array().map(rounded).into());
-    let (eyes, head) = match view.style() {
-        Style::Shape(shape) => (
-            shape.face.map(|face| (face.eye_size, face.eye_height)),
-            shape.proportions.as_ref().map(Proportions::head_width),
-        ),
-        Style::Heads(_) => (None, None),
-    };
+    let shape = view.style().shape();
+    let eyes = shape.and_then(|shape| shape.face).map(|face| (face.eye_size, face.eye_height));
+    let head = shape.and_then(|shape| shape.proportions.as_ref()).map(Proportions::head_width);
     let aim = FaceAim::new(heads, eyes, head);
     let outline = view.outline()?;
     let rows = Rows::new(&face, Option::as_ref(&outline), &aim, &view.options.features(), view.options.smile);

@@ -8,8 +8,6 @@ use crate::error::Result;
 use crate::geometry::marked;
 use crate::parallel;
 use crate::progress::Progress;
-use crate::shape::directions::{RestTriangles, Room};
-use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -103,18 +101,6 @@ pub fn shifts(view: &View) -> Result<Shifts> {
 }
 
 impl Deformer {
-    /// What the directions of all of a mesh's vertices turn by.
-    fn turns(&self, mesh: usize, rest: &RestTriangles) -> Vec<Turn> {
-        let mut room = Room::default();
-        let mut turns = Vec::with_capacity(self.vertices(mesh).len());
-        for piece in rest.pieces(mesh) {
-            let jacobians = rest.jacobians(piece, &self.moved(), &mut room);
-            let of = |(index, vertex)| jacobians.of(index).unwrap_or_else(|| self.turn_of_field(vertex));
-            turns.extend(rest.vertices(piece).enumerate().map(of));
-        }
-        turns
-    }
-
     /// The morph targets of each mesh of which they are asked for, where they change something.
     ///
     /// # Errors
@@ -138,45 +124,42 @@ impl Deformer {
         let touched = self.view().touched()?;
         let of_mesh = &self.inputs.character.meshes[mesh].morph_targets;
         let given: Vec<GivenTarget> = of_mesh.iter().zip(&touched[mesh]).map(GivenTarget::of).collect();
-        let kept = &self.view().shifts()?[mesh];
-        let shifts = match kept.get() {
-            Some(known) => known,
-            None if self.field.finish.is_nothing() => &Vec::new(),
-            None => {
-                let shifts = self.shifts_of(mesh, &given, &mut progress.part(0.0, 0.7))?;
-                kept.get_or_init(|| shifts)
-            }
-        };
-        self.shifted(mesh, &given, shifts, &mut progress.part(0.7, 1.0))
+        self.shifted(mesh, &given, &self.view().shifts()?[mesh], progress)
     }
 
     /// Morph targets of a mesh, those of the character or others, as [`Self::deformed_targets`] has them.
     pub(crate) fn map_targets(&self, mesh: usize, given: &[GivenTarget]) -> Result<Vec<SparseTarget>> {
-        let progress = &mut Progress::none();
-        let shifts = match self.field.finish.is_nothing() {
-            true => Vec::new(),
-            false => self.shifts_of(mesh, given, progress)?,
-        };
-        self.shifted(mesh, given, &shifts, progress)
+        self.shifted(mesh, given, &OnceLock::new(), &mut Progress::none())
     }
 
     /// The targets after the deformation.
     ///
-    /// `shifts`: as [`Self::shifts_of`] gives them.
+    /// `kept`: what [`Self::shifts_of`] gives, where it is known; it is from then on.
     fn shifted(
         &self,
         mesh: usize,
         given: &[GivenTarget],
-        shifts: &[Vec<Vec3>],
+        kept: &OnceLock<Vec<Vec<Vec3>>>,
         progress: &mut Progress,
     ) -> Result<Vec<SparseTarget>> {
         if self.field.finish.is_nothing() || given.is_empty() {
             return Ok(given.iter().map(GivenTarget::same).collect());
         }
+        let shifts = match kept.get() {
+            Some(known) => known,
+            None => {
+                let shifts = self.shifts_of(mesh, given, &mut progress.part(0.0, 0.7))?;
+                kept.get_or_init(|| shifts)
+            }
+        };
+        let progress = &mut progress.part(0.7, 1.0);
         let Mesh { normals, tangents, .. } = &self.inputs.character.meshes[mesh];
         let changes = |which: usize| given.iter().any(|target| !target.deltas[which].is_empty());
         let turns = match !normals.is_empty() && changes(1) || !tangents.is_empty() && changes(2) {
-            true => self.turns(mesh, &*self.view().rest_triangles()?),
+            true => {
+                let rest = self.view().rest_triangles()?;
+                rest.turns(mesh, &self.moved(), |vertex| self.turn_of_field(vertex))
+            }
             false => Vec::new(),
         };
         let new_normals: Vec<Vec3> =

@@ -1,21 +1,19 @@
 //! The numbers of a run.
 
-use super::memo::View;
+use super::memo::{Inputs, View};
 use super::{Deformed, Deformer, head_stages};
 use crate::character::{Humanoid, Role};
 use crate::error::{Result, Warning};
-use crate::geometry::WindingGroups;
 use crate::options::Mode;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::report::{
-    Counts, FigureReport, NewlyInside, ProfileReport, RepairReport, Report, RigReport, SoleClearance,
+    Counts, FigureReport, NewlyInside, ProfileReport, RepairReport, Report, RigReport, SoleClearance, by_name,
 };
 use crate::shape::figure::Figure;
 use crate::shape::group::group_shapes;
-use crate::shape::pose::{Pose, SIT, WALK, posed};
+use crate::shape::pose::{SIT, WALK};
 use crate::shape::stride::clearance_of;
-use crate::shape::style::Style;
 use crate::shape::{BodyShape, GroupShape, Measured};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,11 +36,9 @@ pub fn warnings(view: &View) -> Result<Vec<Warning>> {
 impl Deformer {
     /// Roles that target and style share.
     fn roles(&self) -> BTreeSet<Role> {
+        let of_style = self.inputs.style.shape().map(BodyShape::roles);
         let own = self.target().joints.keys().copied();
-        match &*self.inputs.style {
-            Style::Shape(shape) => own.filter(|role| shape.roles().contains(role)).collect(),
-            Style::Heads(_) => own.collect(),
-        }
+        own.filter(|role| of_style.as_ref().is_none_or(|roles| roles.contains(role))).collect()
     }
 
     /// Length and radius of another body's bone groups, measured over the roles that target and style share.
@@ -63,39 +59,37 @@ impl Deformer {
     /// # Errors
     /// `Cancelled` too.
     pub fn report_with(&self, deformed: &Deformed, progress: &mut Progress) -> Result<Report> {
-        let character = &self.inputs.character;
+        let Inputs { character, rig, style, options } = &self.inputs;
         let result = character.with(deformed);
         let figure = Arc::new(Figure::of(&result)?);
         let placed = Arc::clone(&figure);
         let (repair, measured) = parallel::both(
-            self.inputs.options.thread_count,
+            options.thread_count,
             || self.clothes(&placed),
-            || Measured::of_figure(figure, &result, &self.inputs.options, progress),
+            || Measured::of_figure(figure, &result, options, progress),
         );
         let measured = measured?;
         let roles = self.roles();
-        let mut target = FigureReport::of(self.target(), &roles, &self.inputs.options);
-        let mut result = FigureReport::of(&measured, &roles, &self.inputs.options);
-        if let Some(rig) = &self.inputs.rig {
+        let mut target = FigureReport::of(self.target(), &roles, options);
+        let mut result = FigureReport::of(&measured, &roles, options);
+        let mut joints = character.skeleton.joints.len();
+        if let Some(rig) = rig {
             let at_rest = |joint: usize| character.skeleton.joints[joint].position();
             target.file_joints = joints_by_role(&rig.own, at_rest);
             result.file_joints = joints_by_role(&rig.own, |joint| deformed.joints[joint]);
+            joints = if rig.own_count > 0 { rig.own_count } else { joints };
         }
-        let own_joints = self.inputs.rig.as_ref().map(|rig| rig.own_count).filter(|&count| count > 0);
         let mut warnings = self.warnings.to_vec();
         warnings.extend(repair.and_then(pierced));
         Ok(Report {
             target,
-            reference: match &*self.inputs.style {
-                Style::Shape(shape) => Some(FigureReport::of_style(shape, &roles, &self.inputs.options)),
-                Style::Heads(_) => None,
-            },
+            reference: style.shape().map(|shape| FigureReport::of_style(shape, &roles, options)),
             result,
-            mode: self.inputs.options.mode.name(),
+            mode: options.mode.name(),
             g: self.deformation.body.head_ratio,
-            coefficients: self.deformation.body.coefficients.clone(),
-            profile: ProfileReport::of(self.target(), &self.inputs.style, &measured),
-            rig: self.inputs.rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
+            coefficients: self.coefficients().clone(),
+            profile: ProfileReport::of(self.target(), style, &measured),
+            rig: rig.as_ref().map_or_else(|| self.kept_rig(), |rig| rig.report.clone()),
             repair,
             sole_clearance: SoleClearance { target: soles(self.target()), result: soles(&measured) },
             morph_pair_error: self.morph_pair_error() / measured.figure.height(),
@@ -104,7 +98,7 @@ impl Deformer {
                 triangles: character.triangle_count(),
                 meshes: character.meshes.len(),
                 morph_targets: character.meshes.iter().map(|mesh| mesh.morph_targets.len()).sum(),
-                joints: own_joints.unwrap_or(character.skeleton.joints.len()),
+                joints,
             },
             timing_ms: self.timing(),
             warnings,
@@ -113,33 +107,20 @@ impl Deformer {
 
     /// What became of the clothes in `result`.
     fn clothes(&self, result: &Figure) -> Option<RepairReport> {
-        let (measured, threads) = (self.target(), self.inputs.options.thread_count);
-        let view = self.view();
         if self.inputs.options.mode == Mode::Paper {
             return None;
         }
-        let (worn, pushed) = (view.worn().ok()?, view.pushed().ok()?);
+        let (worn, pushed) = (self.view().worn().ok()?, self.view().pushed().ok()?);
         if worn.places.is_empty() {
             return None;
         }
-        let groups = WindingGroups::new(&measured.figure.positions, &worn.body);
-        let newly_inside = |pose: Pose| {
-            let all = (0..worn.places.len() as u32).collect();
-            let after = worn.inside(&posed(result, pose), &groups, all, threads);
-            let count = after.len();
-            let before = worn.inside(&posed(&measured.figure, pose), &groups, after, threads);
-            (count - before.len()) as f64 / worn.places.len() as f64
-        };
-        let offsets = &pushed.offsets;
-        let furthest = offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
+        let (before, threads) = (&self.target().figure, self.inputs.options.thread_count);
+        let [rest, walk, sit] = worn.newly_inside(before, result, [&[], WALK, SIT], threads);
+        let furthest = pushed.offsets.iter().map(|(_, offset)| offset.length()).fold(0.0, f64::max);
         Some(RepairReport {
-            pushed: offsets.len(),
+            pushed: pushed.offsets.len(),
             furthest: self.field.finish.share_of_offsets() * furthest / result.height(),
-            newly_inside: NewlyInside {
-                rest: newly_inside(&[]),
-                walk: newly_inside(WALK),
-                sit: newly_inside(SIT),
-            },
+            newly_inside: NewlyInside { rest, walk, sit },
         })
     }
 
@@ -177,12 +158,8 @@ impl Deformer {
 
     /// The character's own rig, of which every joint is sure.
     fn kept_rig(&self) -> RigReport {
-        let roles = self.target().joints.keys();
-        RigReport {
-            source: "kept",
-            confidence: roles.map(|role| (role.name().to_string(), 1.0)).collect(),
-            ..RigReport::default()
-        }
+        let confidence = by_name(self.target().joints.keys().map(|&role| (role, 1.0)));
+        RigReport { source: "kept", confidence, ..RigReport::default() }
     }
 }
 
@@ -209,5 +186,5 @@ fn soles(measured: &Measured) -> Option<f64> {
 
 /// Where the joints of `humanoid` are, by role.
 fn joints_by_role(humanoid: &Humanoid, place: impl Fn(usize) -> DVec3) -> BTreeMap<String, [f64; 3]> {
-    humanoid.iter().map(|(role, joint)| (role.name().to_string(), place(joint).to_array())).collect()
+    by_name(humanoid.iter().map(|(role, joint)| (role, place(joint).to_array())))
 }

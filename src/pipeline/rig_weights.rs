@@ -10,7 +10,7 @@ use crate::rig::mesh_kinds::body_is_whole;
 use crate::rig::parts::hangs_from_head;
 use crate::rig::solid::Solid;
 use crate::rig::transfer::{GarmentOnSkin, Skin, Source, rigid_weights};
-use crate::rig::voxel::{FALLOFF, VoxelOptions, heat_would_be_poor, voxel_weights};
+use crate::rig::voxel::{VoxelOptions, heat_would_be_poor, voxel_weights};
 use crate::rig::{GarmentWeights, RigOptions, UnitFigure, WeightBone, WeightMethod, WeightSet};
 use crate::room::{self, Of};
 use glam::DVec3;
@@ -65,16 +65,14 @@ pub enum BodyRule {
 /// What decides the weights of every mesh, as far as it does not depend on the heat.
 pub struct Binder<'a> {
     figure: &'a UnitFigure,
-    head: u32,
-    /// Eyes, and the joint that each turns with.
-    eyes: Vec<(&'a Eye, u32)>,
-    options: &'a RigOptions,
+    humanoid: &'a Humanoid,
+    eyes: &'a [Eye],
+    threads: usize,
     body: Group,
     garments: Vec<Group>,
     accessories: Group,
     of_head: Vec<usize>,
-    /// The body's skin and each garment on it, made when weights are first asked for; `None` until then, and where
-    /// nothing is worn.
+    /// The body's skin and each garment on it; `None` where nothing is worn.
     worn: Option<(Skin, Vec<GarmentOnSkin>)>,
     pub rule: BodyRule,
     pub warning: Option<Warning>,
@@ -87,9 +85,9 @@ impl<'a> Binder<'a> {
         figure: &'a UnitFigure,
         kinds: &[MeshKind],
         (bones, solid): (&[WeightBone], &Solid),
-        humanoid: &Humanoid,
+        humanoid: &'a Humanoid,
         eyes: &'a [Eye],
-        options: &'a RigOptions,
+        options: &RigOptions,
         progress: &mut Progress,
     ) -> Result<Self> {
         let clock = Moment::now();
@@ -113,48 +111,62 @@ impl<'a> Binder<'a> {
         body.sort_unstable();
         let body = Group::new(figure, body);
         progress.at(0.1)?;
-        let (points, triangles) = (&body.positions, &body.triangles);
+        let (points, triangles, threads) = (&body.positions, &body.triangles, options.thread_count);
         let (poor, by_volume) = match options.method {
             WeightMethod::Auto => (heat_would_be_poor(points, triangles, bones), false),
             WeightMethod::Heat => (None, false),
             WeightMethod::Volume => (None, true),
         };
-        let poor = poor.map(|reason| {
-            format!("weights were found through the volume of the body, not along its surface: {reason}")
-        });
-        let threads = options.thread_count;
         progress.at(0.25)?;
-        let progress = &mut progress.part(0.25, 1.0);
+        let part = &mut progress.part(0.25, 0.95);
         let rule = if by_volume || poor.is_some() {
             let options = VoxelOptions {
                 resolution: options.voxel_resolution,
-                falloff: FALLOFF,
                 thread_count: threads,
+                ..VoxelOptions::default()
             };
-            BodyRule::Volume(voxel_weights(points, triangles, bones, &options, progress)?)
+            BodyRule::Volume(voxel_weights(points, triangles, bones, &options, part)?)
         } else {
             room::ask(Of::Heat, points.len())?;
             let held = || held(points, triangles, bones, humanoid);
             let body: (_, &(dyn Fn() -> _ + Sync)) = (Some(solid), &held);
-            BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, progress)?)
+            BodyRule::Heat(HeatSystem::in_body(points, triangles, bones, body, threads, part)?)
         };
-        let head = humanoid.joint(Role::Head).unwrap_or(0);
-        let joint = |eye: &Eye| humanoid.joint(eye.role).unwrap_or(head) as u32;
+        let body_time = clock.milliseconds();
+
+        let clock = Moment::now();
+        let garments: Vec<Group> = garments.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect();
+        let worn = if garments.is_empty() && accessories.is_empty() {
+            None
+        } else {
+            room::ask(Of::Skin, points.len())?;
+            let skin = Skin::new(points, triangles);
+            let on_skin = |group: &Group| {
+                let garment = (&group.positions[..], &group.triangles[..]);
+                GarmentOnSkin::new(&skin, triangles, garment, options.garments, threads)
+            };
+            let on_skin = garments.iter().map(on_skin).collect();
+            Some((skin, on_skin))
+        };
+        progress.at(1.0)?;
+        let message = |reason| {
+            format!("weights were found through the volume of the body, not along its surface: {reason}")
+        };
         Ok(Self {
             figure,
-            head: head as u32,
-            eyes: eyes.iter().map(|eye| (eye, joint(eye))).collect(),
-            options,
+            humanoid,
+            eyes,
+            threads,
             body,
-            garments: garments.into_iter().map(|mesh| Group::new(figure, vec![mesh])).collect(),
+            garments,
             // Pieces that touch are one thing, whatever meshes they are in.
             accessories: Group::new(figure, accessories),
             of_head,
-            worn: None,
+            worn,
             rule,
-            warning: poor.map(|message| Warning::new("open_body", message)),
-            body_time: clock.milliseconds(),
-            garment_time: 0.0,
+            warning: poor.map(|reason| Warning::new("open_body", message(reason))),
+            body_time,
+            garment_time: clock.milliseconds(),
         })
     }
 
@@ -167,7 +179,6 @@ impl<'a> Binder<'a> {
         heat: f64,
         progress: &mut Progress,
     ) -> Result<(Vec<Weights>, BTreeMap<String, usize>)> {
-        let threads = self.options.thread_count;
         let clock = Moment::now();
         let mut weights = vec![Weights::default(); self.figure.mesh_count()];
         let mut fallback = BTreeMap::new();
@@ -177,47 +188,30 @@ impl<'a> Binder<'a> {
                 *fallback.entry((*rule).to_string()).or_default() += vertices;
             }
         };
-        let body = &self.body;
         let of_body = match &self.rule {
             BodyRule::Volume(weighted) => weighted,
             BodyRule::Heat(system) => &system.weights(heat, &mut progress.part(0.0, 0.5))?,
         };
-        hand_out(body, of_body);
+        hand_out(&self.body, of_body);
         self.body_time += clock.milliseconds();
         progress.at(0.5)?;
 
         let clock = Moment::now();
-        if !self.garments.is_empty() || !self.accessories.meshes.is_empty() {
-            if self.worn.is_none() {
-                room::ask(Of::Skin, body.positions.len())?;
-            }
-            let (skin, worn) = self.worn.get_or_insert_with(|| {
-                let skin = Skin::new(&body.positions, &body.triangles);
-                let on_skin = |group: &Group| {
-                    let garment = (&group.positions[..], &group.triangles[..]);
-                    GarmentOnSkin::new(&skin, &body.triangles, garment, self.options.garments, threads)
-                };
-                let worn = self.garments.iter().map(on_skin).collect();
-                (skin, worn)
-            });
-            progress.at(0.7)?;
-            let source = Source {
-                skin,
-                positions: &body.positions,
-                triangles: &body.triangles,
-                weights: &of_body.weights,
-            };
+        if let Some((skin, worn)) = &self.worn {
+            let Group { positions, triangles, .. } = &self.body;
+            let source = Source { skin, positions, triangles, weights: &of_body.weights };
             for (group, worn) in self.garments.iter().zip(worn) {
-                hand_out(group, &worn.weights(&source, threads));
+                hand_out(group, &worn.weights(&source, self.threads));
                 progress.at(0.85)?;
             }
             let things = &self.accessories;
             hand_out(things, &rigid_weights(&source, &things.positions, &things.triangles));
         }
+        let joint = |role: Role| self.humanoid.joint(role).or(self.humanoid.joint(Role::Head));
         for &mesh in &self.of_head {
             weights[mesh] = Weights::from_rows(self.figure.vertices(mesh).map(|vertex| {
-                let eye = self.eyes.iter().find(|(eye, _)| eye.vertices.binary_search(&vertex).is_ok());
-                [(eye.map_or(self.head, |&(_, joint)| joint), 1.0)]
+                let eye = self.eyes.iter().find(|eye| eye.vertices.binary_search(&vertex).is_ok());
+                [(joint(eye.map_or(Role::Head, |eye| eye.role)).unwrap_or(0) as u32, 1.0)]
             }));
         }
         self.garment_time += clock.milliseconds();

@@ -6,7 +6,7 @@ use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::geometry::marked;
 use crate::progress::Progress;
-use crate::report::{JointCandidate, RigReport};
+use crate::report::{JointCandidate, RigReport, by_name};
 use crate::rig::candidates::Place;
 use crate::rig::eyeballs::find_eyes;
 use crate::rig::mesh_kinds::refine_kinds;
@@ -114,6 +114,7 @@ impl Rig {
             BodyRule::Volume(_) => (WeightMethod::Volume, weights.clone()),
         };
         let skin_weights = skin_weights.iter().map(|weights| weights.trimmed(SKIN_TAIL)).collect();
+        let timing_ms = [joint_time, binder.body_time, binder.garment_time];
         progress.at(1.0)?;
 
         let scored = |place: Place| (figure.to_model(place.position), place.score);
@@ -133,7 +134,7 @@ impl Rig {
             method,
             fallback,
             warnings,
-            timing_ms: [joint_time, binder.body_time, binder.garment_time],
+            timing_ms,
         })
     }
 
@@ -197,24 +198,15 @@ impl Rig {
 
     /// The numbers for the report.
     pub fn report(&self) -> RigReport {
+        let candidate =
+            |&(position, score): &(DVec3, f64)| JointCandidate { position: position.to_array(), score };
+        let candidates = self.candidates.iter();
         RigReport {
             source: "auto",
-            confidence: self
-                .humanoid
-                .iter()
-                .map(|(role, joint)| (role.name().to_string(), self.confidence[joint]))
-                .collect(),
-            candidates: self
-                .candidates
-                .iter()
-                .map(|(role, places)| {
-                    let place = |&(position, score): &(DVec3, f64)| JointCandidate {
-                        position: position.to_array(),
-                        score,
-                    };
-                    (role.name().to_string(), places.iter().map(place).collect())
-                })
-                .collect(),
+            confidence: by_name(self.humanoid.iter().map(|(role, joint)| (role, self.confidence[joint]))),
+            candidates: by_name(
+                candidates.map(|(&role, places)| (role, places.iter().map(candidate).collect())),
+            ),
             unreached_vertices: self
                 .weights
                 .iter()

@@ -242,13 +242,11 @@ fn shape_body(view: &View) -> Result<Body> {
 
 fn push_clothes(view: &View) -> Result<Arc<Pushed>> {
     let (body, measured) = (view.body()?, view.measured()?);
-    match (view.options.repair, view.before()) {
-        (Repair::Off, _) => return Ok(Arc::default()),
+    let worn = match (view.options.repair, view.before()) {
         (Repair::Kept, Some(pushed)) => return Ok(pushed),
-        _ if body.parts().is_none() => return Ok(Arc::default()),
-        _ => {}
-    }
-    let worn = view.worn()?;
+        (Repair::On | Repair::Kept, _) if body.parts().is_some() => view.worn()?,
+        (Repair::Off | Repair::On | Repair::Kept, _) => Arc::default(),
+    };
     if worn.places.is_empty() {
         return Ok(Arc::default());
     }

@@ -34,7 +34,7 @@ impl Default for VoxelOptions {
 }
 
 /// How fast weights fall off where nobody says. As Dionne and de Lasa, 2013.
-pub const FALLOFF: f64 = 0.2;
+const FALLOFF: f64 = 0.2;
 
 /// A vertex in a part of the volume that no bone is in: it follows the nearest part that one is in.
 pub const VOLUME_APART: &str = "volume_apart";

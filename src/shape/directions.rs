@@ -8,7 +8,9 @@
 //! triangles side by side, then each vertex sums up what happens around it, and nothing is kept from piece to piece. A
 //! triangle at a border is looked at by each of its pieces, in the order of the mesh, so that the pieces do not show.
 
-use super::turn::{Four, LANES, Turn, Turns, columns_of, cross, dot, four_at, root, transposed};
+use super::turn::{
+    Four, LANES, Turn, Turns, columns_of, cross, dot, each_of, four_at, four_of, root, transposed,
+};
 use crate::geometry::weld::Weld;
 use crate::geometry::{CellMap, Rows, bounds, by_number};
 use glam::{BVec4A, DVec3, Mat3A, Vec3, Vec3A, Vec4};
@@ -19,6 +21,8 @@ use std::ops::Range;
 const LEAST_AREA: f64 = 1e-10;
 /// Vertices of a piece.
 pub const PIECE: usize = 1024;
+/// Vertices whose results are written together.
+pub const BLOCK: usize = 256;
 /// Triangles that are looked at together, and so the corners that they have at most.
 const BATCH: usize = 256;
 const CORNERS: usize = 1024;
@@ -128,7 +132,7 @@ impl Default for Room {
 }
 
 /// The Jacobians of a piece's vertices: each fitted to the triangles around it, their mean by area.
-pub struct Jacobians<'a> {
+struct Jacobians<'a> {
     sums: &'a [[Vec4; 3]; PIECE],
     slots: &'a [u16],
 }
@@ -136,7 +140,7 @@ pub struct Jacobians<'a> {
 impl Jacobians<'_> {
     /// What the piece's vertex number `index` turns by; `None` where no triangle around it has an area, or their mean has
     /// lost its volume.
-    pub fn of(&self, index: usize) -> Option<Turn> {
+    fn of(&self, index: usize) -> Option<Turn> {
         let [x, y, z] = self.sums[usize::from(self.slots[index])];
         let by_area = x.w.recip();
         let column = |v: Vec4| Vec3A::from_vec4(v * by_area);
@@ -146,7 +150,7 @@ impl Jacobians<'_> {
 
     /// The same of four vertices from `first` on, the last one again for those that are not there; and of which there is one.
     #[inline(always)]
-    pub fn of_four(&self, first: usize) -> (Turns, BVec4A) {
+    fn of_four(&self, first: usize) -> (Turns, BVec4A) {
         let sums = four_at(self.slots, first).map(|slot| &self.sums[usize::from(slot) & (PIECE - 1)]);
         let columns: [[Vec4; LANES]; 3] =
             std::array::from_fn(|column| transposed(sums.map(|sum| sum[column])));
@@ -207,22 +211,62 @@ impl RestTriangles {
         rest
     }
 
-    /// The pieces of a mesh.
-    pub fn pieces(&self, mesh: usize) -> Range<usize> {
-        self.mesh_pieces[mesh].clone()
+    /// How many pieces a mesh has.
+    pub fn piece_count(&self, mesh: usize) -> usize {
+        self.mesh_pieces[mesh].len()
     }
 
-    /// A piece's vertices, as indices into all.
-    pub fn vertices(&self, piece: usize) -> Range<usize> {
-        self.pieces[piece].vertices.clone()
+    /// What the directions of all of a mesh's vertices turn by.
+    ///
+    /// `of_field`: for a vertex that has no Jacobian.
+    pub fn turns(&self, mesh: usize, moved: &Moved, of_field: impl Fn(usize) -> Turn) -> Vec<Turn> {
+        let pieces = &self.pieces[self.mesh_pieces[mesh].clone()];
+        let mut room = Room::default();
+        let mut turns = Vec::with_capacity(pieces.iter().map(|piece| piece.vertices.len()).sum());
+        for piece in pieces {
+            let jacobians = self.jacobians(piece, moved, &mut room);
+            let of = |(index, vertex)| jacobians.of(index).unwrap_or_else(|| of_field(vertex));
+            turns.extend(piece.vertices.clone().enumerate().map(of));
+        }
+        turns
+    }
+
+    /// Writes what normals and tangents of some of a mesh's pieces turn into, block by block: how many of their vertices come
+    /// before it, and both, none of a kind that is not there.
+    ///
+    /// - `of_field`: for a vertex that has no Jacobian.
+    /// - `normals`, `tangents`: of all of the mesh.
+    pub fn turn(
+        &self,
+        (mesh, pieces): (usize, Range<usize>),
+        moved: &Moved,
+        of_field: impl Fn(usize) -> Turn,
+        (normals, tangents): (&[Vec3], &[Vec4]),
+        room: &mut Room,
+        mut write: impl FnMut(usize, &[Vec3], &[Vec4]),
+    ) {
+        let of_mesh = &self.pieces[self.mesh_pieces[mesh].clone()];
+        let first = pieces.start * PIECE;
+        let mut block = Directions { normals: [Vec3::ZERO; BLOCK], tangents: [Vec4::ZERO; BLOCK] };
+        for (at, piece) in (first..).step_by(PIECE).zip(&of_mesh[pieces]) {
+            let jacobians = self.jacobians(piece, moved, room);
+            for from in (0..piece.vertices.len()).step_by(BLOCK) {
+                let in_mesh = at + from..at + piece.vertices.len().min(from + BLOCK);
+                let normals = normals.get(in_mesh.clone()).unwrap_or_default();
+                let tangents = tangents.get(in_mesh).unwrap_or_default();
+                let of_field = |index| of_field(piece.vertices.start + from + index);
+                let (normals, tangents) = block.turn(&jacobians, from, normals, tangents, of_field);
+                write(at - first + from, normals, tangents);
+            }
+        }
     }
 
     /// What happens around each vertex of a piece.
     ///
     /// The deformation gradients of the triangles' edges, with the normal as third axis scaled by the root of the change of
     /// area, so that a uniform scaling is fitted exactly.
-    pub fn jacobians<'a>(&'a self, piece: usize, moved: &Moved, room: &'a mut Room) -> Jacobians<'a> {
-        let Piece { vertices, batches } = &self.pieces[piece];
+    fn jacobians<'a>(&'a self, piece: &Piece, moved: &Moved, room: &'a mut Room) -> Jacobians<'a> {
+        let Piece { vertices, batches } = piece;
         room.sums.fill([Vec4::ZERO; 3]);
         let (size, share) = (moved.size, self.scale * moved.share);
         for Batch { corners, groups, runs, around } in batches {
@@ -258,6 +302,56 @@ impl RestTriangles {
             }
         }
         Jacobians { sums: &room.sums, slots: &self.slots[vertices.clone()] }
+    }
+}
+
+/// Directions that are written together.
+struct Directions {
+    normals: [Vec3; BLOCK],
+    tangents: [Vec4; BLOCK],
+}
+
+impl Directions {
+    /// Turns those of the vertices of a piece that follow `from`, none of a kind that is not there.
+    ///
+    /// `of_field`: for a vertex that has no Jacobian.
+    fn turn(
+        &mut self,
+        jacobians: &Jacobians,
+        from: usize,
+        normals: &[Vec3],
+        tangents: &[Vec4],
+        of_field: impl Fn(usize) -> Turn,
+    ) -> (&[Vec3], &[Vec4]) {
+        let count = normals.len().max(tangents.len());
+        for four in (0..count).step_by(LANES) {
+            let (turns, are_sound) = jacobians.of_four(from + four);
+            let new = (!normals.is_empty()).then(|| turns.normals(four_of(four_at(normals, four))));
+            if let Some(new) = new {
+                let to = each_of(new, Vec4::ZERO).map(Vec4::truncate);
+                self.normals[four..four + LANES].copy_from_slice(&to);
+            }
+            if !tangents.is_empty() {
+                let [x, y, z, sides] = transposed(four_at(tangents, four));
+                let to = each_of(turns.tangents([x, y, z], new), sides);
+                self.tangents[four..four + LANES].copy_from_slice(&to);
+            }
+            if !are_sound.all() {
+                for index in (four..count.min(four + LANES)).filter(|index| !are_sound.test(index - four)) {
+                    self.turn_one(index, &of_field(index), normals, tangents);
+                }
+            }
+        }
+        (&self.normals[..normals.len()], &self.tangents[..tangents.len()])
+    }
+
+    /// Turns those of one vertex.
+    fn turn_one(&mut self, index: usize, turn: &Turn, normals: &[Vec3], tangents: &[Vec4]) {
+        let normal = normals.get(index).map(|&normal| turn.normal(normal));
+        self.normals[index] = normal.unwrap_or_default();
+        if let Some(tangent) = tangents.get(index) {
+            self.tangents[index] = turn.tangent(tangent.truncate(), normal).extend(tangent.w);
+        }
     }
 }
 

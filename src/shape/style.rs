@@ -41,6 +41,14 @@ impl Style {
         }
         Ok(Self::Heads(heads))
     }
+
+    /// The body that it is like; `None` for a number of heads.
+    pub(crate) fn shape(&self) -> Option<&BodyShape> {
+        match self {
+            Self::Shape(shape) => Some(shape),
+            Self::Heads(_) => None,
+        }
+    }
 }
 
 /// The names of the built-in bodies.

@@ -9,7 +9,6 @@ use super::memory;
 use super::options::{self, SdefOptions};
 use crate::error::Named;
 use crate::geometry::distinct;
-use crate::pipeline::Style;
 use crate::progress::Progress;
 use crate::report::FigureReport;
 use crate::shape::GroupShape;
@@ -17,7 +16,6 @@ use core::ffi::{c_char, c_void};
 use deformer_state::DeformerState;
 use glam::DVec3;
 use safer_ffi::prelude::*;
-use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock};
 use targets::Deltas;
 
@@ -321,10 +319,8 @@ pub unsafe extern "C" fn sdef_deformer_get_groups(
     let body = |state: &DeformerState| unsafe {
         let deformer = state.deformer();
         let target = deformer.group_shapes(&deformer.target().shape);
-        let reference = match deformer.style() {
-            Style::Shape(shape) => deformer.group_shapes(shape),
-            Style::Heads(_) => BTreeMap::new(),
-        };
+        let reference =
+            deformer.style().shape().map(|shape| deformer.group_shapes(shape)).unwrap_or_default();
         let names = distinct(deformer.coefficients().keys().chain(target.keys()));
         write_out(group_count, names.len());
         let sizes = |shape: Option<&GroupShape>| {

@@ -7,6 +7,7 @@ use crate::geometry::{
 };
 use crate::parallel;
 use crate::shape::figure::Figure;
+use crate::shape::pose::{Pose, posed};
 use glam::DVec3;
 
 /// What is of no known kind is worn where the body lies under it nearer than this, a share of H: 5 cm on an adult, a coat. D32.
@@ -95,26 +96,36 @@ impl Worn {
         Outside::new(points, &self.body, &self.rims, weld, self.outwards, Some(&self.tree))
     }
 
-    /// Those of `places` that the body, of which `groups` are made, is around where all vertices are at `points`.
-    pub fn inside(
+    /// The share of all places that the body is around in each of `poses` of the figure `after`, and not in that pose of it
+    /// `before`, where nothing had moved.
+    pub fn newly_inside<const N: usize>(
         &self,
-        points: &[DVec3],
-        groups: &WindingGroups,
-        mut places: Vec<u32>,
+        before: &Figure,
+        after: &Figure,
+        poses: [Pose; N],
         threads: usize,
-    ) -> Vec<u32> {
-        places.retain(|&place| !self.is_sewn[place as usize]);
-        if places.is_empty() {
-            return places;
-        }
-        let winding = groups.between(points);
-        let is_inside = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
-            let p = points[self.vertices[places[index] as usize] as usize];
-            self.outwards * winding.at(p) > 0.5
-        });
-        let mut is_inside = is_inside.into_iter();
-        places.retain(|_| is_inside.next() == Some(true));
-        places
+    ) -> [f64; N] {
+        let groups = WindingGroups::new(&before.positions, &self.body);
+        let inside = |figure: &Figure, pose: Pose, mut places: Vec<u32>| {
+            if places.is_empty() {
+                return places;
+            }
+            let points = posed(figure, pose);
+            let winding = groups.between(&points);
+            let is_inside = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
+                let p = points[self.vertices[places[index] as usize] as usize];
+                self.outwards * winding.at(p) > 0.5
+            });
+            let mut is_inside = is_inside.into_iter();
+            places.retain(|_| is_inside.next() == Some(true));
+            places
+        };
+        let loose = (0..).zip(&self.is_sewn).filter(|(_, is_sewn)| !**is_sewn).map(|(place, _)| place);
+        poses.map(|pose| {
+            let found = inside(after, pose, loose.clone().collect());
+            let count = found.len();
+            (count - inside(before, pose, found).len()) as f64 / self.places.len() as f64
+        })
     }
 
     /// `body`, which looks outwards or, at -1, inwards, and `cloth` over it, whose own sheets meet where they are no further
