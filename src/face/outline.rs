@@ -42,6 +42,10 @@ pub struct OutlineSources {
 /// A head from the front and from the side; all lengths in head lengths, depths from the head's middle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outline {
+    /// Where the head is.
+    pub frame: HeadFrame,
+    /// The height of the trunk's shoulder line.
+    pub shoulder_line: f64,
     /// The depth of the head's middle.
     pub middle: f64,
     /// At each station: half the head's width, how far its front and its back are from the middle; `NaN` where nothing is
@@ -104,6 +108,8 @@ impl Outline {
         let trunk_back = DepthMap::new(&behind, &sources.trunk, window).furthest(rows, (0.0, BACK.0));
         let chin = bare.furthest((0.02, 0.12), (0.0, BACK.0));
         Some(Self {
+            frame,
+            shoulder_line,
             middle,
             half_widths: HEIGHTS.map(|y| half_width(front(y), y)),
             with_hair: HEIGHTS.map(|y| half_width(&hair, y)),

@@ -27,9 +27,9 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// How the head at `frame` goes back over a trunk with that `shoulder_line`; `None` where it sits well.
-    pub fn new(outline: &Outline, frame: HeadFrame, shoulder_line: f64) -> Option<Self> {
-        let shoulder_line = (shoulder_line - frame.origin.y) / frame.length;
+    /// How the head of `outline` goes back over the trunk; `None` where it sits well.
+    pub fn new(outline: &Outline) -> Option<Self> {
+        let &Outline { frame, shoulder_line, .. } = outline;
         let most = MOST_BACK.min(MOST_LEAN * (WHOLE - shoulder_line).max(0.0));
         let back = (outline.overhang - CHIN_BEFORE).min(SKULL_BEHIND - outline.behind).clamp(0.0, most);
         let row = Kernel::level(WHOLE, WHOLE - shoulder_line, f64::INFINITY);

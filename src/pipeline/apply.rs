@@ -1,6 +1,5 @@
 //! Takes a character through the field: vertices, their directions, joints.
 
-use super::displacement::Ending;
 use super::morphs::SparseTarget;
 use super::places::{MeshPlaces, Place};
 use super::stages::Number;
@@ -10,7 +9,7 @@ use crate::error::Result;
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::directions::{BLOCK, Moved, PIECE, RestTriangles, Room};
-use crate::shape::field::Binding;
+use crate::shape::field::{Binding, Ending};
 use crate::shape::placement::Placement;
 use crate::shape::turn::Turn;
 use glam::{DVec3, Vec3, Vec4};

@@ -6,10 +6,9 @@
 
 use super::Deformer;
 use super::memo::View;
-use crate::character::Frame;
 use crate::error::Result;
 use crate::parallel;
-use crate::shape::field::{Binding, Field, Finish};
+use crate::shape::field::{Binding, Field, single};
 use crate::shape::figure::Figure;
 use crate::shape::placement::{Placement, is_of_head, renewed};
 use glam::{DVec3, Vec3};
@@ -77,45 +76,6 @@ fn corrections(view: &View, placement: &Placement, way: impl Fn(usize) -> DVec3)
 fn displacement(placement: &Placement, vertex: usize) -> Vec3 {
     let figure = placement.figure;
     single(figure.frame.to_model(placement.vertex(vertex) - figure.positions[vertex]))
-}
-
-/// What is done last, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).
-///
-/// Written so that nothing as large as `p` is rounded twice: far from the origin only the sum is.
-#[derive(Clone, Copy, Debug)]
-pub struct Ending {
-    /// size - 1.
-    grows: f32,
-    about: Vec3,
-    /// amount size.
-    share: f32,
-    /// The ground's shift, size times.
-    lift: Vec3,
-}
-
-impl Ending {
-    /// As `finish` says, in the model space of `frame`.
-    pub fn of(finish: &Finish, frame: &Frame) -> Self {
-        Self {
-            grows: (finish.size - 1.0) as f32,
-            about: single(frame.to_model(finish.about)),
-            share: finish.share() as f32,
-            lift: single(frame.to_model(DVec3::Y * (finish.size * finish.ground))),
-        }
-    }
-
-    /// Where a vertex ends.
-    #[inline(always)]
-    pub fn place(&self, p: Vec3, displacement: Vec3) -> Vec3 {
-        let to = p + (self.grows * (p - self.about) + (self.share * displacement + self.lift));
-        // What lies beyond the range of floats, which takes a model of over 1e30 units, ends there instead of at infinity.
-        to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
-    }
-}
-
-/// As floats; what lies beyond their range ends there.
-pub fn single(p: DVec3) -> Vec3 {
-    p.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())).as_vec3()
 }
 
 impl Deformer {

@@ -110,12 +110,7 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
 
 /// How the head goes back over the chest.
 pub fn seat(view: &View) -> Result<Option<Seat>> {
-    let (body, measured, outline) = (view.body()?, view.measured()?, view.outline()?);
-    let (Some(outline), Some(frame), Some(parts)) = (*outline, frame_after(&body, &measured), body.parts())
-    else {
-        return Ok(None);
-    };
-    Ok(Seat::new(&outline, frame, parts.after().shoulder_line))
+    Ok(view.outline()?.as_ref().as_ref().and_then(Seat::new))
 }
 
 /// The field all the way: body, face, flow and seat, as much of each as the options ask for.

@@ -1,13 +1,13 @@
 //! Morph targets after a deformation: each is made again at the vertices that it touches, and is zero at the others.
 
 use super::Deformer;
-use super::displacement::single;
 use super::memo::View;
 use crate::character::{Mesh, MorphTarget};
 use crate::error::Result;
 use crate::geometry::marked;
 use crate::parallel;
 use crate::progress::Progress;
+use crate::shape::field::single;
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};

@@ -1,7 +1,7 @@
 //! §IV-B in order: facing, kinds, joints, weights of the body, weights of what it wears.
 
 use super::rig_weights::{Binder, BodyRule};
-use crate::character::{Character, Humanoid, MeshKind, Role, Skeleton, Weights};
+use crate::character::{Character, Humanoid, Joint, MeshKind, Role, Skeleton, Weights};
 use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::geometry::marked;
@@ -146,10 +146,9 @@ impl Rig {
         for (joint, ride) in rigged.skeleton.joints.iter_mut().zip(self.rides(character)) {
             joint.parent = ride.map(|ride| own + ride).or(joint.parent);
         }
-        rigged.skeleton.joints.extend(self.skeleton.joints.iter().cloned().map(|mut joint| {
-            joint.parent = joint.parent.map(|parent| own + parent);
-            joint
-        }));
+        let made = self.skeleton.joints.iter();
+        let behind = |joint: &Joint| Joint { parent: joint.parent.map(|above| own + above), ..joint.clone() };
+        rigged.skeleton.joints.extend(made.map(behind));
         rigged.humanoid = Humanoid::default();
         for (role, joint) in self.humanoid.iter() {
             rigged.humanoid.set(role, own + joint);
@@ -171,12 +170,7 @@ impl Rig {
     /// that moves most of what it moves. `None` for joints that follow their own parent, or nothing.
     fn rides(&self, character: &Character) -> Vec<Option<usize>> {
         let count = character.skeleton.joints.len();
-        let mut rides = vec![None; count];
         let has_role = marked(count, character.humanoid.iter().map(|(_, joint)| joint));
-        for (role, joint) in character.humanoid.iter() {
-            let ride = || role.chain().find_map(|role| self.humanoid.joint(role));
-            rides[joint] = rides[joint].or_else(ride);
-        }
         let mut moved = vec![BTreeMap::<u32, f64>::new(); count];
         for (mesh, weights) in character.meshes.iter().zip(&self.weights) {
             for (old, new) in mesh.weights.rows().zip(weights.rows()) {
@@ -187,11 +181,12 @@ impl Rig {
                 }
             }
         }
-        for joint in 0..count {
-            if character.skeleton.ancestors(joint).all(|above| !has_role[above]) {
-                let most = moved[joint].iter().max_by(|a, b| a.1.total_cmp(b.1));
-                rides[joint] = most.map(|(&to, _)| to as usize);
-            }
+        let most = |joint: usize| moved[joint].iter().max_by(|a, b| a.1.total_cmp(b.1));
+        let is_loose = |joint: usize| character.skeleton.ancestors(joint).all(|above| !has_role[above]);
+        let ride = |joint| most(joint).filter(|_| is_loose(joint)).map(|(&to, _)| to as usize);
+        let mut rides: Vec<_> = (0..count).map(ride).collect();
+        for (role, joint) in character.humanoid.iter() {
+            rides[joint] = rides[joint].or_else(|| role.chain().find_map(|role| self.humanoid.joint(role)));
         }
         rides
     }

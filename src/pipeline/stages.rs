@@ -3,9 +3,9 @@
 //! A row says what a stage makes, the function that makes it, and the options that it reads. Which stages above it a function
 //! reads stands in it, at its beginning. [`memo`](super::memo) calls it where what it reads has changed. Where a point goes by
 //! what comes out here is in [`Placement`] and [`Field`]; what is done last, for every vertex alike,
-//! in [`super::displacement::Ending`].
+//! in [`Ending`].
 
-use super::displacement::{self, Displacements, Ending};
+use super::displacement::{self, Displacements};
 use super::memo::{Phase, Stage, Value, View};
 use super::morphs::{self, Shifts, Touched};
 use super::{hair, head_stages, reporting};
@@ -19,7 +19,7 @@ use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
 use crate::shape::Measured;
 use crate::shape::directions::RestTriangles;
-use crate::shape::field::{Field, Finish};
+use crate::shape::field::{Ending, Field, Finish};
 use crate::shape::figure::{Figure, extent};
 use crate::shape::paper;
 use crate::shape::placement::{Bindings, Body, Placement};

@@ -8,11 +8,12 @@ use super::paper::bone_field::{BoneBinding, PaperField};
 use super::product::binding::PartBinding;
 use super::product::part::Part;
 use super::product::parts_field::PartField;
+use crate::character::Frame;
 use crate::face::FaceShape;
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::Mapped;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::sync::Arc;
 
 /// How a point is attached to the body.
@@ -135,6 +136,45 @@ impl Finish {
     pub fn is_nothing(&self) -> bool {
         self.amount == 0.0 && self.size == 1.0
     }
+}
+
+/// [`Finish::apply`] as floats, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).
+///
+/// Written so that nothing as large as `p` is rounded twice: far from the origin only the sum is.
+#[derive(Clone, Copy, Debug)]
+pub struct Ending {
+    /// size - 1.
+    grows: f32,
+    about: Vec3,
+    /// amount size.
+    share: f32,
+    /// The ground's shift, size times.
+    lift: Vec3,
+}
+
+impl Ending {
+    /// As `finish` says, in the model space of `frame`.
+    pub fn of(finish: &Finish, frame: &Frame) -> Self {
+        Self {
+            grows: (finish.size - 1.0) as f32,
+            about: single(frame.to_model(finish.about)),
+            share: finish.share() as f32,
+            lift: single(frame.to_model(DVec3::Y * (finish.size * finish.ground))),
+        }
+    }
+
+    /// Where a vertex ends.
+    #[inline(always)]
+    pub fn place(&self, p: Vec3, displacement: Vec3) -> Vec3 {
+        let to = p + (self.grows * (p - self.about) + (self.share * displacement + self.lift));
+        // What lies beyond the range of floats, which takes a model of over 1e30 units, ends there instead of at infinity.
+        to.clamp(Vec3::splat(f32::MIN), Vec3::splat(f32::MAX))
+    }
+}
+
+/// As floats; what lies beyond their range ends there.
+pub fn single(p: DVec3) -> Vec3 {
+    p.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())).as_vec3()
 }
 
 /// A deformation of space around a body.
