@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{LocalKey, Scope, ScopedJoinHandle};
 
 /// The name of every thread that this module starts.
@@ -82,6 +82,11 @@ fn share_count(threads: usize, count: usize, least: usize) -> usize {
         0 | 1 => 1,
         most => most.min(thread_count(threads)),
     }
+}
+
+/// What `mutex` holds, for this thread alone; as another one left it, where that one's work ended in a panic.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// `make` of every index below `count`, in order.
@@ -166,7 +171,7 @@ pub fn in_shares<R: Default, P: Send>(
     }
     shares.push(Mutex::new(Some((first..count, place))));
     collect(threads, shares.len(), 1, |index| {
-        let share = shares[index].lock().unwrap_or_else(PoisonError::into_inner).take();
+        let share = lock(&shares[index]).take();
         if let Some((items, place)) = share {
             work(&mut R::default(), items, place);
         }
@@ -178,7 +183,7 @@ fn by_jobs<T: Send>(jobs: &dyn Jobs, count: usize, make: impl Fn(usize) -> T + S
     let places: Vec<Mutex<Option<std::thread::Result<T>>>> = (0..count).map(|_| Mutex::new(None)).collect();
     jobs.run(count, &|index| {
         let Some(place) = places.get(index) else { return };
-        let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut place = lock(place);
         if place.is_none() {
             // The host's threads are its own: a task uses no others, and no panic leaves it.
             let work = || catch_unwind(AssertUnwindSafe(|| make(index)));

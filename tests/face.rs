@@ -151,6 +151,8 @@ const AIM: FaceAim = FaceAim { eye_size: 0.067, eye_height: 0.40, skull_half_wid
 /// to the occiput.
 fn adult_outline() -> Outline {
     Outline {
+        frame: HeadFrame { origin: DVec3::ZERO, length: 1.0 },
+        shoulder_line: -0.4,
         middle: -0.03,
         half_widths: [0.22, 0.30, 0.35, 0.38, 0.38, 0.37, 0.35, 0.29],
         with_hair: [0.22, 0.30, 0.38, 0.40, 0.38, 0.37, 0.35, 0.29],
@@ -360,7 +362,9 @@ fn nothing_is_pressed_to_a_quarter_of_its_volume() {
 #[test]
 fn a_head_that_hangs_before_the_chest_goes_back_and_never_forward() {
     let frame = HeadFrame { origin: DVec3::new(0.0, 10.0, 0.5), length: 2.0 };
-    let outline = |overhang: f64, behind: f64| Outline { overhang, behind, ..adult_outline() };
+    let seat = |overhang: f64, behind: f64, shoulder_line: f64| {
+        Seat::new(&Outline { frame, shoulder_line, overhang, behind, ..adult_outline() })
+    };
     // The chin may hang .10 head lengths before the chest, the skull .42 behind the back.
     for (overhang, behind, shoulder_line, back) in [
         (0.14, 0.2, -0.4, 0.04),
@@ -369,7 +373,7 @@ fn a_head_that_hangs_before_the_chest_goes_back_and_never_forward() {
         (0.3, 0.5, -0.4, 0.0),
         (0.5, f64::INFINITY, -0.4, 0.0),
     ] {
-        let seat = Seat::new(&outline(overhang, behind), frame, frame.from_unit(DVec3::Y * shoulder_line).y);
+        let seat = seat(overhang, behind, shoulder_line);
         assert_eq!(seat.is_some(), back > 0.0, "{overhang}, {behind}");
         let Some(seat) = seat else { continue };
         let off = |y: f64, share: f64| {
@@ -385,7 +389,7 @@ fn a_head_that_hangs_before_the_chest_goes_back_and_never_forward() {
         assert!(lean.is_sorted() && lean[25] > 0.0, "{lean:?}");
     }
     // However far it hangs out, a short neck leans by less than 45 degrees.
-    let short = Seat::new(&outline(1.0, -1.0), frame, frame.from_unit(DVec3::Y * -0.05).y).unwrap();
+    let short = seat(1.0, -1.0, -0.05).unwrap();
     for step in 0..30 {
         let p = frame.from_unit(DVec3::new(0.0, -0.07 + 0.01 * f64::from(step), 0.0));
         assert!(short.map(p, 1.0).jacobian.y_axis.z.abs() < 1.0);

@@ -3,11 +3,12 @@
 use super::basics::*;
 use crate::error::{Element, Error, ErrorKind, Warning};
 use crate::options::GroupSettings;
+use crate::parallel::lock;
 use core::ffi::c_void;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{addr_of, addr_of_mut};
-use std::sync::{Mutex, Once, PoisonError};
+use std::sync::{Mutex, Once};
 
 /// Why a call failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -174,7 +175,7 @@ fn fault(panic: &(dyn std::any::Any + Send)) -> Failure {
         .copied()
         .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
         .unwrap_or_default();
-    let place = PLACE.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let place = lock(&PLACE).take();
     let place = place.map_or(String::new(), |(file, line)| format!("{file}:{line}: "));
     let message = format!("a fault of the library, please report it: {place}{text}");
     Failure::new(SDEF_STATUS_INTERNAL, message)

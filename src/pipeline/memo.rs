@@ -11,12 +11,13 @@ use crate::character::Character;
 use crate::clock::Moment;
 use crate::error::{Result, Warning};
 use crate::options::Options;
+use crate::parallel::lock;
 use crate::progress::Progress;
 use crate::shape::style::Style;
 use std::any::Any;
 use std::cell::RefCell;
 use std::fmt;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// What a stage makes.
 pub type Value = Arc<dyn Any + Send + Sync>;
@@ -91,7 +92,7 @@ impl Default for Memo {
 impl Clone for Memo {
     /// Of a copy every value is looked at again before it is given back: something else may be given.
     fn clone(&self) -> Self {
-        let copy = |slot| Mutex::new(Slot { made: lock(slot).made.clone(), holds: false });
+        let copy = |slot: &Mutex<Slot>| Mutex::new(Slot { made: lock(slot).made.clone(), holds: false });
         Self { slots: self.slots.iter().map(copy).collect() }
     }
 }
@@ -124,10 +125,6 @@ impl Memo {
         let is_kept = |made: &Arc<Made>| self.made().any(|(_, now)| Arc::ptr_eq(&now, made));
         before.made().filter(|(_, made)| !is_kept(made)).map(|(stage, _)| stage.name).collect()
     }
-}
-
-fn lock(slot: &Mutex<Slot>) -> MutexGuard<'_, Slot> {
-    slot.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What a stage is shown.

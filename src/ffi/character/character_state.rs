@@ -8,6 +8,7 @@ use crate::error::Warning;
 use crate::ffi::basics::SDEF_STATUS_NO_HUMANOID;
 use crate::ffi::guard::{Failure, Outcome};
 use crate::ffi::memory;
+use crate::parallel::lock;
 use crate::pipeline::Rig;
 use crate::progress::Progress;
 use crate::rig::RigOptions;
@@ -93,7 +94,7 @@ impl CharacterState {
 
     /// The character with its own rig; its roles may not be found yet.
     pub fn character(&self) -> Arc<Character> {
-        self.resolved.lock().unwrap_or_else(PoisonError::into_inner).character.clone()
+        lock(&self.resolved).character.clone()
     }
 
     /// The character with the rig that was made for it.
@@ -103,7 +104,7 @@ impl CharacterState {
 
     /// The character with its roles.
     pub fn ready(&self) -> Ready {
-        let mut resolved = self.resolved.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut resolved = lock(&self.resolved);
         if !resolved.roles_found {
             let mut humanoid = self.given.clone();
             if !humanoid.missing().is_empty() && !resolved.character.skeleton.joints.is_empty() {

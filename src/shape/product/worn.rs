@@ -96,8 +96,8 @@ impl Worn {
         Outside::new(points, &self.body, &self.rims, weld, self.outwards, Some(&self.tree))
     }
 
-    /// The share of all places that the body is around in each of `poses` of the figure `after`, and not in that pose of it
-    /// `before`, where nothing had moved.
+    /// For each of `poses` the share of all places that the body is around where the figure `after` takes it, and is not where
+    /// the one `before` does, at which all this was found.
     pub fn newly_inside<const N: usize>(
         &self,
         before: &Figure,
