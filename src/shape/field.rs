@@ -138,7 +138,8 @@ impl Finish {
     }
 }
 
-/// [`Finish::apply`] as floats, for a vertex at `p` whose displacement is `d`: p + ((size - 1) (p - about) + size (amount d + ground)).
+/// What a [`Finish`] does, as floats, to a vertex at `p` whose displacement is `d`:
+/// p + ((size - 1) (p - about) + size (amount d + ground)).
 ///
 /// Written so that nothing as large as `p` is rounded twice: far from the origin only the sum is.
 #[derive(Clone, Copy, Debug)]

@@ -96,8 +96,8 @@ impl Worn {
         Outside::new(points, &self.body, &self.rims, weld, self.outwards, Some(&self.tree))
     }
 
-    /// For each of `poses` the share of all places that the body is around where the figure `after` takes it, and is not where
-    /// the one `before` does, at which all this was found.
+    /// For each of `poses` the share of all places that are inside of the body in the figure `after`, and are not in the figure
+    /// `before`, of which all this was found.
     pub fn newly_inside<const N: usize>(
         &self,
         before: &Figure,
