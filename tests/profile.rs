@@ -289,6 +289,24 @@ fn fingers_that_curl_hook_less_than_a_short_hand_grows_stubby_and_its_thumb_is_a
 }
 
 #[test]
+fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other() {
+    let target = "makehuman_female_rigged.glb";
+    if !at_hand() || model(target).is_none() {
+        return;
+    }
+    let run = Run::new(target, "style", &style_of(REFERENCE, &Options::default()), &Options::default());
+    let spread = |figure: &Figure| {
+        let way =
+            |[root, end]: [Role; 2]| figure.role_position(end).unwrap() - figure.role_position(root).unwrap();
+        let index = way([Role::LeftIndexProximal, Role::LeftIndexDistal]);
+        index.angle_between(way([Role::LeftLittleProximal, Role::LeftLittleDistal]))
+    };
+    let (before, after) = (spread(run.before()), spread(&run.after()));
+    assert!(before > 0.2, "the fingers lie together: {before}");
+    assert!(after < 0.6 * before, "{before} before, {after} after");
+}
+
+#[test]
 fn a_share_of_the_profile_is_between_none_and_all() {
     if !at_hand() {
         return;

@@ -1,7 +1,7 @@
 //! How every vertex and joint is attached to the parts (product mode).
 
 use super::anatomy::Anatomy;
-use super::part::{Part, PartWeights, thumb};
+use super::part::{Part, PartWeights, digits};
 use super::part_weights::part_weights;
 use super::pieces::{Attachment, Piece, PieceSources, Pieces, touching};
 use super::profile::chains::arm_share;
@@ -45,9 +45,10 @@ impl PartBinding {
         match self.attachment {
             Attachment::Plain => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone | Attachment::Thumb(_) => {
-                (0.0, None)
-            }
+            Attachment::Piece(_)
+            | Attachment::Strand { .. }
+            | Attachment::OnBone
+            | Attachment::Digits { .. } => (0.0, None),
         }
     }
 
@@ -72,7 +73,7 @@ impl PartBinding {
         let with_piece = match self.attachment {
             Attachment::Piece(_) => return 0.0,
             Attachment::Strand { share, .. } => f64::from(share),
-            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone | Attachment::Thumb(_) => 0.0,
+            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone | Attachment::Digits { .. } => 0.0,
         };
         let parts = [Part::Head, Part::Neck, Part::Hair];
         (1.0 - with_piece)
@@ -130,9 +131,20 @@ pub fn part_bindings(
     };
     let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
     for (vertex, attachment) in attachments.iter_mut().enumerate() {
-        let share = figure.weight_of(vertex, |role| is_of_thumb(figure, role)) as f32;
-        if share > 0.0 && *attachment == Attachment::Plain {
-            *attachment = Attachment::Thumb(share);
+        if *attachment == Attachment::Plain {
+            let mut shares = [0.0; 5];
+            for &(role, weight) in &figure.role_weights[vertex] {
+                if let Some(digit) = digit_of(figure, role) {
+                    shares[usize::from(digit)] += weight as f32;
+                }
+            }
+            // What lies between fingers is of two that are beside each other.
+            let both = |&first: &usize| shares[first] + shares[first + 1];
+            let first = (0..4).max_by(|a, b| both(a).total_cmp(&both(b))).unwrap_or(0);
+            if both(&first) > 0.0 {
+                *attachment =
+                    Attachment::Digits { first: first as u8, shares: [shares[first], shares[first + 1]] };
+            }
         }
     }
     let hair_depth = (0..figure.positions.len())
@@ -208,9 +220,10 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
     touching(figure, &components, ONE_THING, |_, _| true)
 }
 
-/// True for what a thumb's free bones move: its root in the palm stays where that is.
-fn is_of_thumb(figure: &Figure, role: Role) -> bool {
-    thumb(&figure.humanoid, role.is_left()).contains(&role)
+/// Which finger the bone of `role` is a free bone of, thumb first.
+fn digit_of(figure: &Figure, role: Role) -> Option<u8> {
+    let digits = digits(&figure.humanoid, role.is_left());
+    digits.iter().position(|digit| digit.contains(&role)).map(|digit| digit as u8)
 }
 
 /// The vertices of each connected component.
@@ -237,8 +250,9 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     }
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
-    } else if is_of_thumb(figure, role) {
-        binding.attachment = Attachment::Thumb(1.0);
+    } else if let Some(digit) = digit_of(figure, role) {
+        let shares = if digit < 4 { [1.0, 0.0] } else { [0.0, 1.0] };
+        binding.attachment = Attachment::Digits { first: digit.min(3), shares };
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
         binding = PartBinding::to(Part::Hair);
     }

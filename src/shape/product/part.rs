@@ -1,5 +1,6 @@
 //! The parts of a body that product mode moves by one map each, and a vertex's weights to them.
 
+use crate::character::humanoid::LEFT_FINGERS;
 use crate::character::{Humanoid, Role};
 
 /// One of the parts of a body that move by one map each: fifteen, and hair, whose map is the head's above the chin.
@@ -85,11 +86,13 @@ pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
     parts
 }
 
-/// The roles of a thumb's first free bone, beyond the palm, and of its last.
-pub fn thumb(humanoid: &Humanoid, left: bool) -> [Role; 2] {
-    let is_whole = humanoid.has(Role::LeftThumbProximal.on_side(left));
-    let root = if is_whole { Role::LeftThumbProximal } else { Role::LeftThumbMetacarpal };
-    [root, Role::LeftThumbDistal].map(|role| role.on_side(left))
+/// The roles of the free bones of each finger, thumb first: a thumb's root in the palm stays where that is.
+pub fn digits(humanoid: &Humanoid, left: bool) -> [[Role; 3]; 5] {
+    let mut digits = LEFT_FINGERS.map(|finger| finger.map(|role| role.on_side(left)));
+    if humanoid.has(digits[0][1]) {
+        digits[0][0] = digits[0][1];
+    }
+    digits
 }
 
 /// Adds `factor` times `row` to `sum`.

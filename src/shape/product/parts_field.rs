@@ -185,7 +185,7 @@ impl PartField {
             }
             Some(slices) if !is_of_head(weights) => {
                 let first = match binding.attachment {
-                    Attachment::Thumb(share) => slices.map.thumb(p, weights, share.into()),
+                    Attachment::Digits { first, shares } => slices.map.digits(p, weights, first, shares),
                     _ => unmoved,
                 };
                 let smooth: M = slices.relief.map(first.position(), weights, *is_skirt);

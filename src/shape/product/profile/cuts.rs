@@ -16,7 +16,7 @@ use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
-use crate::shape::product::part::thumb;
+use crate::shape::product::part::digits;
 use glam::{DVec2, DVec3};
 
 /// What reaches further than this over the middle is no leg, in head lengths.
@@ -62,8 +62,8 @@ pub struct BodyFrame {
     pub shoulders: DVec3,
     /// The plane that halves the body.
     pub middle_x: f64,
-    /// Where each thumb leaves the hand, and the way from there to its last joint.
-    pub thumbs: [Option<[DVec3; 2]>; 2],
+    /// The joints of each finger, thumb first.
+    pub digits: [[Option<[DVec3; 3]>; 5]; 2],
 }
 
 impl BodyFrame {
@@ -75,11 +75,11 @@ impl BodyFrame {
             .iter()
             .filter_map(|&role| figure.role_position(role))
             .collect();
-        let thumb_of = |side: usize| {
-            let [root, end] = thumb(&figure.humanoid, side == 0).map(|role| figure.role_position(role));
-            let way = end? - root?;
-            (way.length() > 0.0).then_some([root?, way])
+        let digit = |roles: [Role; 3]| {
+            let [root, middle, end] = roles.map(|role| figure.role_position(role));
+            (root? != end?).then_some([root?, middle.or(root)?, end?])
         };
+        let digits_of = |side: usize| digits(&figure.humanoid, side == 0).map(digit);
         let heights = anatomy.landmarks.heights;
         let sign = |limb: usize| if limbs[limb].end.x < limbs[limb ^ 1].end.x { -1.0 } else { 1.0 };
         Self {
@@ -88,7 +88,7 @@ impl BodyFrame {
             signs: [0, 1, 2, 3].map(sign),
             leg_length: heights.crotch - (limbs[2].end.y + limbs[3].end.y) / 2.0,
             arm_lengths: [0, 1].map(|side| limbs[side].root.distance(limbs[side].end)),
-            thumbs: [thumb_of(0), thumb_of(1)],
+            digits: [0, 1].map(digits_of),
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
