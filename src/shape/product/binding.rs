@@ -130,11 +130,12 @@ pub fn part_bindings(
         weights: &weights,
     };
     let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
+    let digits: Vec<Option<u8>> = Role::all().map(|role| digit_of(figure, role)).collect();
     for (vertex, attachment) in attachments.iter_mut().enumerate() {
         if *attachment == Attachment::Plain {
             let mut shares = [0.0; 5];
             for &(role, weight) in &figure.role_weights[vertex] {
-                if let Some(digit) = digit_of(figure, role) {
+                if let Some(digit) = digits[role as usize] {
                     shares[usize::from(digit)] += weight as f32;
                 }
             }
