@@ -290,11 +290,11 @@ impl BodyMap {
         let [long, broad, thin] = scales.hand;
         let mitt = smoothstep(((broad * thin).sqrt() / long - 1.0) / MITT);
         let of_side = frame.digits[side];
-        let fingers =
-            [1, 2, 3, 4].map(|digit| of_side[digit].map_or([DVec3::ZERO; 2], |[root, _, end]| [root, end]));
-        // From finger to finger, at right angles to all of them together.
-        let together = fingers.iter().map(|[root, end]| end - root).sum::<DVec3>();
-        let apart = (fingers[3][0] - fingers[0][0]).reject_from(together).normalize_or_zero();
+        let fingers: Vec<[DVec3; 3]> = of_side[1..].iter().copied().flatten().collect();
+        // From the first finger to the last, at right angles to all of them together.
+        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
+        let across = fingers.first().zip(fingers.last()).map(|(first, last)| last[0] - first[0]);
+        let apart = across.unwrap_or_default().reject_from(together).normalize_or_zero();
         let digits = [0, 1, 2, 3, 4].map(|digit| {
             let mut digit_map = DigitMap::new(of_side[digit]?, THICKER * mitt);
             let axis = digit_map.axis;
@@ -331,7 +331,9 @@ impl DigitMap {
     fn new([root, middle, end]: [DVec3; 3], thicker: f64) -> Self {
         let (axis, length) = (end - root).normalize_and_length();
         let along = (middle - root).dot(axis);
-        Self { root, axis, length, bend: (along, middle - root - along * axis), to: axis, thicker }
+        // What lies beyond the last joint is not between: the bones would end beside it.
+        let off = if along < length { middle - root - along * axis } else { DVec3::ZERO };
+        Self { root, axis, length, bend: (along, off), to: axis, thicker }
     }
 
     /// Where `p` of the finger is along it and beside its bones, and how much of it becomes thicker there, with the slope.
