@@ -45,10 +45,9 @@ impl PartBinding {
         match self.attachment {
             Attachment::Plain => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            Attachment::Piece(_)
-            | Attachment::Strand { .. }
-            | Attachment::OnBone
-            | Attachment::Digits { .. } => (0.0, None),
+            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone | Attachment::Digits(_) => {
+                (0.0, None)
+            }
         }
     }
 
@@ -73,7 +72,7 @@ impl PartBinding {
         let with_piece = match self.attachment {
             Attachment::Piece(_) => return 0.0,
             Attachment::Strand { share, .. } => f64::from(share),
-            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone | Attachment::Digits { .. } => 0.0,
+            Attachment::Plain | Attachment::OnFace(_) | Attachment::OnBone | Attachment::Digits(_) => 0.0,
         };
         let parts = [Part::Head, Part::Neck, Part::Hair];
         (1.0 - with_piece)
@@ -130,22 +129,16 @@ pub fn part_bindings(
         weights: &weights,
     };
     let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
-    let digits: Vec<Option<u8>> = Role::all().map(|role| digit_of(figure, role)).collect();
-    for (vertex, attachment) in attachments.iter_mut().enumerate() {
-        if *attachment == Attachment::Plain {
-            let mut shares = [0.0; 5];
-            for &(role, weight) in &figure.role_weights[vertex] {
-                if let Some(digit) = digits[role as usize] {
-                    shares[usize::from(digit)] += weight as f32;
-                }
+    let digits: Vec<Option<usize>> = Role::all().map(|role| digit_of(figure, role)).collect();
+    for (attachment, row) in attachments.iter_mut().zip(&figure.role_weights) {
+        let mut shares = [0.0; 5];
+        for &(role, weight) in row {
+            if let Some(digit) = digits[role as usize] {
+                shares[digit] += weight as f32;
             }
-            // What lies between fingers is of two that are beside each other.
-            let both = |&first: &usize| shares[first] + shares[first + 1];
-            let first = (0..4).max_by(|a, b| both(a).total_cmp(&both(b))).unwrap_or(0);
-            if both(&first) > 0.0 {
-                *attachment =
-                    Attachment::Digits { first: first as u8, shares: [shares[first], shares[first + 1]] };
-            }
+        }
+        if *attachment == Attachment::Plain && shares != [0.0; 5] {
+            *attachment = Attachment::Digits(shares);
         }
     }
     let hair_depth = (0..figure.positions.len())
@@ -222,9 +215,8 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
 }
 
 /// Which finger the bone of `role` is a free bone of, thumb first.
-fn digit_of(figure: &Figure, role: Role) -> Option<u8> {
-    let digits = digits(&figure.humanoid, role.is_left());
-    digits.iter().position(|digit| digit.contains(&role)).map(|digit| digit as u8)
+fn digit_of(figure: &Figure, role: Role) -> Option<usize> {
+    digits(&figure.humanoid, role.is_left()).iter().position(|digit| digit.contains(&role))
 }
 
 /// The vertices of each connected component.
@@ -252,8 +244,9 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
     } else if let Some(digit) = digit_of(figure, role) {
-        let shares = if digit < 4 { [1.0, 0.0] } else { [0.0, 1.0] };
-        binding.attachment = Attachment::Digits { first: digit.min(3), shares };
+        let mut shares = [0.0; 5];
+        shares[digit] = 1.0;
+        binding.attachment = Attachment::Digits(shares);
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
         binding = PartBinding::to(Part::Hair);
     }

@@ -101,7 +101,7 @@ impl Mean {
         let (piece, share) = match binding.attachment {
             // What takes the face map as a whole says nothing of the body.
             Attachment::OnFace(_) => return,
-            Attachment::Plain | Attachment::OnBone | Attachment::Digits { .. } => (None, 0.0),
+            Attachment::Plain | Attachment::OnBone | Attachment::Digits(_) => (None, 0.0),
             Attachment::Piece(piece) => (Some(piece), 1.0),
             Attachment::Strand { piece, share } => (Some(piece), share),
         };

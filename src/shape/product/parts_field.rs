@@ -185,7 +185,7 @@ impl PartField {
             }
             Some(slices) if !is_of_head(weights) => {
                 let first = match binding.attachment {
-                    Attachment::Digits { first, shares } => slices.map.digits(p, weights, first, shares),
+                    Attachment::Digits(shares) => slices.map.digits(p, weights, shares),
                     _ => unmoved,
                 };
                 let smooth: M = slices.relief.map(first.position(), weights, *is_skirt);

@@ -25,13 +25,8 @@ pub enum Attachment {
     Plain,
     /// A joint of an arm: it follows the bones, not the slices around them.
     OnBone,
-    /// So much of a finger and of the next, 0 to 1, which a stubby hand makes parts of a mitt.
-    Digits {
-        /// Which the first is, from the thumb on.
-        first: u8,
-        /// How much of each.
-        shares: [f32; 2],
-    },
+    /// So much of each finger, thumb first, 0 to 1, which a stubby hand makes parts of a mitt.
+    Digits([f32; 5]),
     /// A hat or glasses: takes the face map of this point as a whole.
     OnFace(DVec3),
     /// Moves with piece number so-and-so, which keeps its shape.

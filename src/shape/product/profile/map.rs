@@ -170,14 +170,14 @@ impl BodyMap {
         }
     }
 
-    /// Where `p` goes first, so much of which is of finger number `first` and of the next, on the side that `weights` tell.
+    /// Where `p` goes first, so much of which is of each finger, thumb first, on the side that `weights` tell.
     #[inline(never)]
-    pub fn digits<M: Moved>(&self, p: DVec3, weights: &PartWeights, first: u8, shares: [f32; 2]) -> M {
+    pub fn digits<M: Moved>(&self, p: DVec3, weights: &PartWeights, shares: [f32; 5]) -> M {
         let side = usize::from(arm_share(weights, 1) > arm_share(weights, 0));
-        let digits = self.arms[side].iter().flat_map(|arm| &arm.digits[usize::from(first)..]);
-        let of =
-            || digits.clone().zip(shares).filter_map(|(digit, share)| Some((digit.as_ref()?, share.into())));
-        let moved = of().map(|(digit, share): (&DigitMap, f64)| share * digit.way(p)).sum::<DVec3>();
+        let digits = self.arms[side].iter().flat_map(|arm| &arm.digits).zip(shares);
+        let counts = digits.filter(|&(_, share)| share > 0.0);
+        let of = || counts.clone().filter_map(|(digit, share)| Some((digit.as_ref()?, f64::from(share))));
+        let moved = of().map(|(digit, share)| share * digit.way(p)).sum::<DVec3>();
         M::of(p + moved, || of().fold(DMat3::IDENTITY, |sum, (digit, share)| sum + digit.slope(p) * share))
     }
 
