@@ -43,11 +43,9 @@ impl PartBinding {
     pub fn of_face(&self) -> (f64, Option<DVec3>) {
         let share = f64::from(self.weights[Part::Head as usize] + self.weights[Part::Hair as usize]);
         match self.attachment {
-            Attachment::Plain => (share, None),
+            Attachment::Plain | Attachment::Digits(_) => (share, None),
             Attachment::OnFace(middle) => (share, Some(middle)),
-            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone | Attachment::Digits(_) => {
-                (0.0, None)
-            }
+            Attachment::Piece(_) | Attachment::Strand { .. } | Attachment::OnBone => (0.0, None),
         }
     }
 
@@ -172,8 +170,8 @@ fn face_bindings(
         let share = smoothstep(f64::from(of_head)) as f32;
         match (attachments[vertex], figure.kind(vertex)) {
             _ if share == 0.0 => FaceBinding::None,
-            (Attachment::Plain, MeshKind::Hair) => FaceBinding::Hair(share),
-            (Attachment::Plain, _) => FaceBinding::Skin(share),
+            (Attachment::Plain | Attachment::Digits(_), MeshKind::Hair) => FaceBinding::Hair(share),
+            (Attachment::Plain | Attachment::Digits(_), _) => FaceBinding::Skin(share),
             _ => FaceBinding::None,
         }
     };

@@ -117,9 +117,10 @@ impl Strands {
             return None;
         }
         let is_body = |vertex: usize| {
-            let is_plain =
-                bindings[vertex].parts().is_some_and(|parts| parts.attachment == Attachment::Plain);
-            is_plain && bindings[vertex].arms_weight() < ARMS && !figure.is_carried(vertex)
+            let attachment = bindings[vertex].parts().map(|parts| parts.attachment);
+            matches!(attachment, Some(Attachment::Plain | Attachment::Digits(_)))
+                && bindings[vertex].arms_weight() < ARMS
+                && !figure.is_carried(vertex)
         };
         let mut body = figure.triangles_where(is_body);
         body.retain(|corners| corners.iter().any(|&vertex| !is_hair(vertex as usize)));
