@@ -89,6 +89,8 @@ pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
 #[derive(Clone, Debug, Default)]
 struct Mean {
     parts: [f64; PART_COUNT],
+    /// The weight of what is of each finger.
+    digits: [f64; 5],
     /// The weight of what goes with each piece.
     pieces: BTreeMap<usize, f64>,
     /// The weight of what is a skirt.
@@ -107,6 +109,9 @@ impl Mean {
         };
         for (sum, &part) in self.parts.iter_mut().zip(&binding.weights) {
             *sum += weight * f64::from(part);
+        }
+        if let Attachment::Digits(shares) = binding.attachment {
+            self.digits.iter_mut().zip(shares).for_each(|(sum, of)| *sum += weight * f64::from(of));
         }
         if let Some(piece) = piece {
             *self.pieces.entry(piece).or_default() += weight * f64::from(share);
@@ -127,7 +132,8 @@ impl Mean {
         let attachment = match most.map(|(&piece, &sum)| (piece, (sum / self.total) as f32)) {
             Some((piece, share)) if share > WHOLE => Attachment::Piece(piece),
             Some((piece, share)) if share > 1.0 - WHOLE => Attachment::Strand { piece, share },
-            _ => Attachment::Plain,
+            _ if self.digits == [0.0; 5] => Attachment::Plain,
+            _ => Attachment::Digits(self.digits.map(|sum| (sum / self.total) as f32)),
         };
         let is_skirt = 2.0 * self.skirt > self.total;
         Some(PartBinding { weights, attachment, face: FaceBinding::None, is_skirt })
