@@ -86,7 +86,8 @@ pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
     parts
 }
 
-/// The roles of the free bones of each finger, thumb first: a thumb's root in the palm stays where that is.
+/// The roles of the free bones of each finger, thumb first: a thumb's root in the palm stays where that is, and the next bone
+/// stands twice.
 pub fn digits(humanoid: &Humanoid, left: bool) -> [[Role; 3]; 5] {
     let mut digits = LEFT_FINGERS.map(|finger| finger.map(|role| role.on_side(left)));
     if humanoid.has(digits[0][1]) {

@@ -336,7 +336,7 @@ impl DigitMap {
         Self { root, axis, length, bend: (along, off), to: axis, thicker }
     }
 
-    /// Where `p` of the finger is along it and beside its bones, and how much of it becomes thicker there, with the slope.
+    /// Where `p` of the finger is along it and beside its bones, and how much thicker it becomes there, less 1, with the slope.
     fn locate(&self, p: DVec3) -> (f64, DVec3, (f64, f64)) {
         let along = (p - self.root).dot(self.axis);
         let [bone, _] = beside(self.bend.0, self.length, along);
