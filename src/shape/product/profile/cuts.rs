@@ -77,6 +77,7 @@ impl BodyFrame {
             .collect();
         let digit = |roles: [Role; 3]| {
             let [root, middle, end] = roles.map(|role| figure.role_position(role));
+            let end = end.or(middle);
             (root?.distance(end?) > 0.0).then_some([root?, middle.or(root)?, end?])
         };
         let digits_of = |side: usize| digits(&figure.humanoid, side == 0).map(digit);
