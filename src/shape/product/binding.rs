@@ -214,7 +214,10 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
 
 /// Which finger the bone of `role` is a free bone of, thumb first.
 fn digit_of(figure: &Figure, role: Role) -> Option<usize> {
-    digits(&figure.humanoid, role.is_left()).iter().position(|digit| digit.contains(&role))
+    // To list a hand's roles takes longer than to see that one is of no hand.
+    let is_of_hand = matches!(Part::of(role), Part::LeftHand | Part::RightHand);
+    let digits = is_of_hand.then(|| digits(&figure.humanoid, role.is_left()))?;
+    digits.iter().position(|digit| digit.contains(&role))
 }
 
 /// The vertices of each connected component.
@@ -242,9 +245,7 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
     } else if let Some(digit) = digit_of(figure, role) {
-        let mut shares = [0.0; 5];
-        shares[digit] = 1.0;
-        binding.attachment = Attachment::Digits(shares);
+        binding.attachment = Attachment::Digits([0, 1, 2, 3, 4].map(|of| f32::from(of == digit)));
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
         binding = PartBinding::to(Part::Hair);
     }

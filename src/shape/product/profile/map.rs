@@ -296,13 +296,14 @@ impl BodyMap {
         let across = fingers.first().zip(fingers.last()).map(|(first, last)| last[0] - first[0]);
         let apart = across.unwrap_or_default().reject_from(together).normalize_or_zero();
         let digits = [0, 1, 2, 3, 4].map(|digit| {
-            let mut digit_map = DigitMap::new(of_side[digit]?, THICKER * mitt);
+            // Fingers of a hand that is no mitt are left to the slices.
+            let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
+            let mut digit_map = DigitMap::new(joints, THICKER * mitt);
             let axis = digit_map.axis;
             digit_map.to = if digit == 0 {
                 // A thumb becomes as short as the hand.
-                let [along, across, front] =
-                    [planes.axis, planes.across, planes.front].map(|of_arm| axis.dot(of_arm));
-                let grown = DVec3::new(palm * along, thin * across, broad * front);
+                let along = [planes.axis, planes.across, planes.front].map(|of_arm| axis.dot(of_arm));
+                let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
                 (long / grown.length()).min(1.0) * axis
             } else {
                 (axis - mitt * axis.dot(apart) * apart).normalize_or(axis)
