@@ -33,8 +33,8 @@ const FINGERS_SHORTER: f64 = 1.3;
 /// A hand that becomes this much more thick than long, less 1, is a mitt. Seen: ±30 % changes no adult's hand of a body of 2
 /// heads or of the rogue's, which become 1.0 to 1.6; at 3 heads, .2 to .6, a mitt is a third more or less of one.
 const MITT: f64 = 0.5;
-/// A mitt's fingers become this much thicker, less 1. Seen: half of it turns 66 triangles fewer in 154 results, and leaves
-/// gaps between the fingers.
+/// A mitt's fingers become this much thicker, less 1; not the thumb, which is a spike on a low-poly hand then. Seen: no triangle
+/// of 154 results turns for it.
 const THICKER: f64 = 0.3;
 /// A neck's surface, in its radii: collars lie on it.
 const NECK_REACH: f64 = 1.2;
@@ -298,17 +298,16 @@ impl BodyMap {
         let digits = [0, 1, 2, 3, 4].map(|digit| {
             // Fingers of a hand that is no mitt are left to the slices.
             let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
-            let mut digit_map = DigitMap::new(joints, THICKER * mitt);
-            let axis = digit_map.axis;
-            digit_map.to = if digit == 0 {
+            let still = DigitMap::new(joints);
+            let axis = still.axis;
+            if digit == 0 {
                 // A thumb becomes as short as the hand.
                 let along = [planes.axis, planes.across, planes.front].map(|of_arm| axis.dot(of_arm));
                 let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
-                (long / grown.length()).min(1.0) * axis
-            } else {
-                (axis - mitt * axis.dot(apart) * apart).normalize_or(axis)
-            };
-            Some(digit_map)
+                return Some(DigitMap { to: (long / grown.length()).min(1.0) * axis, ..still });
+            }
+            let to = (axis - mitt * axis.dot(apart) * apart).normalize_or(axis);
+            Some(DigitMap { to, thicker: THICKER * mitt, ..still })
         });
         Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade, digits })
     }
@@ -328,13 +327,13 @@ pub(super) fn on_bones(elbow: (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
 }
 
 impl DigitMap {
-    /// That of a finger of these joints, which keeps its direction.
-    fn new([root, middle, end]: [DVec3; 3], thicker: f64) -> Self {
+    /// That of a finger of these joints, which stays as it is.
+    fn new([root, middle, end]: [DVec3; 3]) -> Self {
         let (axis, length) = (end - root).normalize_and_length();
         let along = (middle - root).dot(axis);
         // What lies beyond the last joint is not between: the bones would end beside it.
         let off = if along < length { middle - root - along * axis } else { DVec3::ZERO };
-        Self { root, axis, length, bend: (along, off), to: axis, thicker }
+        Self { root, axis, length, bend: (along, off), to: axis, thicker: 0.0 }
     }
 
     /// Where `p` of the finger is along it and beside its bones, and how much thicker it becomes there, less 1, with the slope.
