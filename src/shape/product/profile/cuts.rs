@@ -157,8 +157,8 @@ impl BodyFrame {
 pub struct BodyLines {
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// How far each hand's middle leaves the arm's at the wrist: in `droop`s, and in `curls`.
-    pub hand_droops: [[DVec2; 3]; 2],
+    /// The same of hands, at the same parts of their own lengths, in the arms' planes.
+    pub hand_middles: [Option<[Row; 2]>; 2],
 }
 
 /// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist; it leaves the line without a
@@ -172,12 +172,6 @@ pub(super) fn droop(s: f64, hand_length: f64) -> f64 {
 pub(super) fn droop_slope(s: f64, hand_length: f64) -> f64 {
     let (s, fade) = (s.max(0.0), HAND_FADE * hand_length);
     s * (s + 2.0 * fade) / ((s + fade) * (s + fade))
-}
-
-/// The same of one that bends by 1 where it has taken over from the arm, and of one that curls from there on.
-pub(super) fn curls(s: f64, hand_length: f64) -> [f64; 2] {
-    let (beyond, length) = (s - HAND_FADE * hand_length, (1.0 - HAND_FADE) * hand_length);
-    [droop(beyond, length), beyond.max(0.0).powi(2) / length]
 }
 
 /// Measures the profile of a figure whose vertices are at `positions`.
@@ -204,7 +198,7 @@ pub fn measure_profile(
         let places = weld.first_vertices();
         (body.arms(), body.hands(&places), body.foot(&places))
     };
-    let ((torso, (leg, skirt), neck), ((arm, arm_middles), (hand, hand_droops), foot)) =
+    let ((torso, (leg, skirt), neck), ((arm, arm_middles), (hand, hand_middles), foot)) =
         parallel::both(body.worth(threads), trunk, limbs);
     let length = body.length;
     let profile = Profile {
@@ -219,7 +213,7 @@ pub fn measure_profile(
             / (2.0 * length),
         arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
-    (profile.sound(), BodyLines { arm_middles, hand_droops })
+    (profile.sound(), BodyLines { arm_middles, hand_middles })
 }
 
 /// A body to be measured, as it is now.
@@ -347,13 +341,13 @@ impl Body<'_> {
         (arm, middles)
     }
 
-    /// Length, half breadth, half thickness; how much each droops, in its arm's planes.
-    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [[DVec2; 3]; 2]) {
-        let mut droops = [[DVec2::ZERO; 3]; 2];
-        let sides: Vec<[f64; 3]> = droops
+    /// Length, half breadth, half thickness; the middles of each, in its arm's planes.
+    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [Option<[Row; 2]>; 2]) {
+        let mut middles = [None, None];
+        let sides: Vec<[f64; 3]> = middles
             .iter_mut()
             .enumerate()
-            .filter_map(|(side, drooping)| {
+            .filter_map(|(side, middles)| {
                 let limb = &self.frame.limbs[side];
                 let planes = Planes { origin: limb.end, ..self.frame.arm_planes(side)? };
                 let points: Vec<(f64, DVec2)> = places
@@ -364,7 +358,7 @@ impl Body<'_> {
                     .filter(|point| point.0 > BEYOND * self.length)
                     .collect();
                 let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
-                *drooping = self.droops(side, &planes, &points, length);
+                *middles = self.hand_middles(side, &planes, length);
                 let palm = || {
                     points
                         .iter()
@@ -378,25 +372,19 @@ impl Body<'_> {
                 Some([length, half(|p| p.y)?, half(|p| p.x)?])
             })
             .collect();
-        (mean_numbers(&sides, self.length), droops)
+        (mean_numbers(&sides, self.length), middles)
     }
 
-    /// How a hand droops whose vertices are at `points`, and how it bends and curls besides, which leaves the slope of its
-    /// vertices as it is. What curls is read from cuts: a box has vertices at its ends alone.
-    fn droops(&self, side: usize, planes: &Planes, points: &[(f64, DVec2)], length: f64) -> [DVec2; 3] {
-        let heights = stations(ARM_STATIONS).map(|t| t * length);
-        let cuts = self.cut(&self.triangles(Chain::Hand(side)), planes, &heights);
-        let middles: Vec<(f64, DVec2)> = (heights.into_iter().zip(&cuts))
-            .filter_map(|(s, outlines)| Some((s, middle(outlines)?)))
-            .collect();
-        let curl = |s: f64| curls(s, length)[1];
-        // Of the curl by the droop, among cuts.
-        let share = slope(middles.iter().map(|&(s, _)| (droop(s, length), DVec2::splat(curl(s))))).x;
-        let curling = slope(middles.iter().map(|&(s, p)| (curl(s) - share * droop(s, length), p)));
-        let by_place = slope(points.iter().map(|&(s, _)| (s, DVec2::from(curls(s, length)))));
-        let level = if by_place.x > 0.0 { by_place.y / by_place.x } else { 0.0 };
-        let drooping = slope(points.iter().map(|&(s, across)| (droop(s, length), across)));
-        [drooping, -level * curling, curling]
+    /// The middles of what cuts through a hand show: vertices would not do, a box has them at its ends alone.
+    fn hand_middles(&self, side: usize, planes: &Planes, length: f64) -> Option<[Row; 2]> {
+        let cuts =
+            self.cut(&self.triangles(Chain::Hand(side)), planes, &stations(ARM_STATIONS).map(|t| t * length));
+        let middles: Vec<DVec2> = cuts.iter().map(|cut| middle(cut).unwrap_or(DVec2::NAN)).collect();
+        let line = |axis: usize| {
+            let measured = std::array::from_fn(|at| middles[at][axis] / self.length);
+            smooth(&measured).map(|line| line.map(|x| x * self.length))
+        };
+        Some([line(0)?, line(1)?])
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.
@@ -482,17 +470,6 @@ fn middle(outlines: &[Outline]) -> Option<DVec2> {
         (length + own, sum + own * (a + b) / 2.0)
     });
     (length > 0.0).then(|| sum / length)
-}
-
-/// How steeply the second of these pairs rises with the first, by least squares; 0 where the first are all the same.
-fn slope(pairs: impl Iterator<Item = (f64, DVec2)> + Clone) -> DVec2 {
-    let count = pairs.clone().count() as f64;
-    let (x, y) = pairs.clone().fold((0.0, DVec2::ZERO), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
-    let (x, y) = (x / count, y / count);
-    let (square, product) = pairs.fold((0.0, DVec2::ZERO), |sum, pair| {
-        (sum.0 + (pair.0 - x) * (pair.0 - x), sum.1 + (pair.0 - x) * (pair.1 - y))
-    });
-    if square > 0.0 { product / square } else { DVec2::ZERO }
 }
 
 /// The value below which `share` of `values` lie; `None` for none.

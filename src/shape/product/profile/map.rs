@@ -5,7 +5,7 @@
 
 use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::cuts::{BodyFrame, BodyLines, HAND_FADE, curls, droop, droop_slope};
+use super::cuts::{BodyFrame, BodyLines, HAND_FADE, droop, droop_slope};
 use super::relief::MOST_ROWS;
 use super::slab::slab;
 use super::slice_scales::Scales;
@@ -266,9 +266,10 @@ impl BodyMap {
             let [_, broad, thin] = hand.unwrap_or([0.0, depth, breadth]);
             let longer_here = longer[row_at(s)];
             // How a hand droops and curls shrinks with its length: one that is short and thick would be a hook.
-            let [droops, bends, curling] = lines.hand_droops[side];
-            let [bend, curl] = curls(s - length, hand_length);
-            let drooping = droops * droop(s - length, hand_length) + bends * bend + curling * curl;
+            let drooping = lines.hand_middles[side].as_ref().map_or(DVec2::ZERO, |middles| {
+                let leaves = |row: &Row| monotone_cubic(&places, row, (s - length) / hand_length) - row[0];
+                share * DVec2::new(leaves(&middles[0]), leaves(&middles[1]))
+            });
             let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
             let middle = DVec2::new(at(&middles[0]), at(&middles[1]));
             let (from, to) = (middle + drooping, middle + from_wrist.powi(2) * drooping);
