@@ -165,8 +165,12 @@ fn a_result_is_as_many_heads_tall_as_its_reference() {
         .collect();
     println!("people of 4 heads or more: {tall:.2?}");
     let runs: Vec<&Run> = runs().iter().filter(|run| tall.contains_key(run.target)).collect();
+    let asked: BTreeMap<&str, f64> = present(&REFERENCES)
+        .into_iter()
+        .map(|name| (name, heads_of(name).landmarks.heights.heads()))
+        .collect();
     check_all(&runs, |run| {
-        let asked = heads_of(run.style).landmarks.heights.heads();
+        let asked = asked[run.style];
         let written = Measured::of(&run.written().character, &Options::default()).unwrap();
         let heads = written.anatomy.landmarks.heights.heads();
         let off = (heads / asked - 1.0).abs();
@@ -307,6 +311,7 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
     let options = Options { face_squash: Some(0.0), youth: 0.0, seat: 0.0, ..Options::default() };
     check_all(&pairs(&options), |run| {
         let (before, after) = (run.before(), run.after());
+        let more = wider_and_deeper(run);
         let mut failures = Vec::new();
         for (mesh, given) in run.loaded.character.meshes.iter().enumerate() {
             let vertices = before.mesh_starts[mesh]..before.mesh_starts[mesh + 1];
@@ -325,7 +330,6 @@ fn what_belongs_to_the_head_alone_keeps_its_shape() {
             // A figure with few heads keeps its height: all of it is so much smaller.
             let keeps_height = (after.height() / before.height() - 1.0).abs() < 1e-6;
             let size = if keeps_height { is.y / (1.5 * was.y) } else { 1.0 };
-            let more = wider_and_deeper(run);
             for axis in 0..3 {
                 if was[axis] < 1e-4 * run.height() {
                     continue;
@@ -604,11 +608,12 @@ fn a_face_that_is_squashed_later_is_the_same_as_one_made_so() {
 
 #[test]
 fn a_second_run_gives_the_same_bits() {
+    let one_thread = Options { thread_count: 1, ..Options::default() };
+    let styles: BTreeMap<&str, Style> =
+        present(&REFERENCES).into_iter().map(|name| (name, style_of(name, &one_thread))).collect();
     check_all(runs(), |run| {
-        let one_thread = Options { thread_count: 1, ..Options::default() };
-        let style = style_of(run.style, &one_thread);
         let character = Arc::new(run.loaded.character.clone());
-        let again = Deformer::new(character, &style, &one_thread).unwrap();
+        let again = Deformer::new(character, &styles[run.style], &one_thread).unwrap();
         (bits(&again.apply()) != bits(&run.deformed)).then(|| run.name.clone()).into_iter().collect()
     });
 }
