@@ -31,8 +31,6 @@ const BEYOND: f64 = 1e-3;
 const HAND_END: f64 = 0.99;
 const HAND_SIDES: (f64, f64) = (0.02, 0.98);
 const HAND_PALM: (f64, f64) = (0.15, 0.75);
-/// Where a hand takes over from the arm, in parts of its length.
-pub(super) const HAND_FADE: f64 = 0.25;
 /// A neck is read at these heights between shoulder line and chin.
 const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
 /// A neck is no thicker than this, in head lengths, an adult's .27: what lies further out is a collar or a scarf.
@@ -159,19 +157,6 @@ pub struct BodyLines {
     pub arm_middles: [Option<[Row; 2]>; 2],
     /// The same of hands, at the same parts of their own lengths, in the arms' planes.
     pub hand_middles: [Option<[Row; 2]>; 2],
-}
-
-/// How far the middle of a hand that droops by 1 lies off the arm's line, `s` beyond the wrist; it leaves the line without a
-/// kink.
-pub(super) fn droop(s: f64, hand_length: f64) -> f64 {
-    let s = s.max(0.0);
-    s * s / (s + HAND_FADE * hand_length)
-}
-
-/// How fast [`droop`] grows.
-pub(super) fn droop_slope(s: f64, hand_length: f64) -> f64 {
-    let (s, fade) = (s.max(0.0), HAND_FADE * hand_length);
-    s * (s + 2.0 * fade) / ((s + fade) * (s + fade))
 }
 
 /// Measures the profile of a figure whose vertices are at `positions`.

@@ -5,7 +5,7 @@
 
 use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::cuts::{BodyFrame, BodyLines, HAND_FADE, droop, droop_slope};
+use super::cuts::{BodyFrame, BodyLines};
 use super::relief::MOST_ROWS;
 use super::slab::slab;
 use super::slice_scales::Scales;
@@ -25,6 +25,8 @@ const JOINING: f64 = 0.08;
 /// joint (0) and wrist (1).
 const LEG_FADE: (f64, f64) = (-0.10, 0.10);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
+/// Where a hand takes over from the arm, in parts of its length.
+const HAND_FADE: f64 = 0.25;
 /// The palm's share of a hand's length, and the half width of its border with the fingers.
 const PALM: f64 = 0.45;
 const KNUCKLES: f64 = 0.08;
@@ -265,14 +267,14 @@ impl BodyMap {
             let (breadth, depth) = (head * at(&profile.breadth), head * at(&profile.depth));
             let [_, broad, thin] = hand.unwrap_or([0.0, depth, breadth]);
             let longer_here = longer[row_at(s)];
-            // How a hand droops and curls shrinks with its length: one that is short and thick would be a hook.
-            let drooping = lines.hand_middles[side].as_ref().map_or(DVec2::ZERO, |middles| {
-                let leaves = |row: &Row| monotone_cubic(&places, row, (s - length) / hand_length) - row[0];
-                share * DVec2::new(leaves(&middles[0]), leaves(&middles[1]))
+            // How a hand leaves the arm's line shrinks with its length: one that is short and thick would be a hook.
+            let leaving = lines.hand_middles[side].as_ref().map_or(DVec2::ZERO, |middles| {
+                let of = |row: &Row| monotone_cubic(&places, row, (s - length) / hand_length) - row[0];
+                share * DVec2::new(of(&middles[0]), of(&middles[1]))
             });
             let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
             let middle = DVec2::new(at(&middles[0]), at(&middles[1]));
-            let (from, to) = (middle + drooping, middle + from_wrist.powi(2) * drooping);
+            let (from, to) = (middle + leaving, middle + from_wrist.powi(2) * leaving);
             [
                 longer_here,
                 over(at(&scales.arm.breadth), scales.hand[2]),
@@ -327,6 +329,12 @@ pub(super) fn on_bones(elbow: (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
     beside(elbow.0, length, s).map(|share| share * elbow.1)
 }
 
+/// How far off a line lies what leaves it by 1, so far along it, without a kink; and the slope there.
+fn leaving(along: f64, length: f64) -> [f64; 2] {
+    let (s, fade) = (along.max(0.0), HAND_FADE * length);
+    [s * s / (s + fade), s * (s + 2.0 * fade) / ((s + fade) * (s + fade))]
+}
+
 impl DigitMap {
     /// That of a finger of these joints, which stays as it is.
     fn new([root, middle, end]: [DVec3; 3]) -> Self {
@@ -347,17 +355,17 @@ impl DigitMap {
         (along, p - self.root - along * self.axis - bone * self.bend.1, thicker)
     }
 
-    /// How far `p` goes: as a hand that droops leaves its arm, without a kink.
+    /// How far `p` goes.
     fn way(&self, p: DVec3) -> DVec3 {
         let (along, off, (thicker, _)) = self.locate(p);
-        droop(along, self.length) * (self.to - self.axis) + thicker * off
+        leaving(along, self.length)[0] * (self.to - self.axis) + thicker * off
     }
 
     /// The derivative of [`Self::way`].
     fn slope(&self, p: DVec3) -> DMat3 {
         let (along, off, (thicker, slope)) = self.locate(p);
         let bone = self.axis + beside(self.bend.0, self.length, along)[1] * self.bend.1;
-        let by_place = droop_slope(along, self.length) * (self.to - self.axis) + slope * off - thicker * bone;
+        let by_place = leaving(along, self.length)[1] * (self.to - self.axis) + slope * off - thicker * bone;
         DMat3::from_diagonal(DVec3::splat(thicker)) + outer(by_place, self.axis)
     }
 }
