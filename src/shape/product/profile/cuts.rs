@@ -314,10 +314,7 @@ impl Body<'_> {
             let cuts = self.cut(&self.triangles(Chain::Arm(side)), &planes, &heights);
             let bone = |height: f64| on_bones(elbow, length, height)[0];
             let rows = self.rows(&cuts, &heights, |_| true, bone, false);
-            *middle = (|| {
-                let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
-                Some([line(&rows[0])?, line(&rows[1])?])
-            })();
+            *middle = self.lines([&rows[0], &rows[1]]);
             sides.push(rows);
         }
         let [_, _, breadth, depth] = mean_rows(&sides);
@@ -365,11 +362,14 @@ impl Body<'_> {
         let cuts =
             self.cut(&self.triangles(Chain::Hand(side)), planes, &stations(ARM_STATIONS).map(|t| t * length));
         let middles: Vec<DVec2> = cuts.iter().map(|cut| middle(cut).unwrap_or(DVec2::NAN)).collect();
-        let line = |axis: usize| {
-            let measured = std::array::from_fn(|at| middles[at][axis] / self.length);
-            smooth(&measured).map(|line| line.map(|x| x * self.length))
-        };
-        Some([line(0)?, line(1)?])
+        let row = |axis: usize| std::array::from_fn(|at| middles[at][axis] / self.length);
+        self.lines([&row(0), &row(1)])
+    }
+
+    /// Smooth lines through middles across and forward that are in head lengths, in model units.
+    fn lines(&self, [across, forward]: [&Row; 2]) -> Option<[Row; 2]> {
+        let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
+        Some([line(across)?, line(forward)?])
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.

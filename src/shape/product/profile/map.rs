@@ -261,16 +261,17 @@ impl BodyMap {
         let row_at = |s: f64| ((s - start) / step).round() as usize;
         let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
             let at = |row: &Row| monotone_cubic(&places, row, s / length);
-            // What is the hand's own: 0 at the wrist, 1 from 40 % of its length.
+            // What is the hand's own: 0 at the wrist, 1 where it has taken over.
             let share = monotone_cubic(&[0.0, HAND_FADE], &[0.0, 1.0], (s - length) / hand_length);
             let over = |arm: f64, hand: f64| arm * (hand / arm).powf(share);
             let (breadth, depth) = (head * at(&profile.breadth), head * at(&profile.depth));
             let [_, broad, thin] = hand.unwrap_or([0.0, depth, breadth]);
             let longer_here = longer[row_at(s)];
             // How a hand leaves the arm's line shrinks with its length: one that is short and thick would be a hook.
-            let leaving = lines.hand_middles[side].as_ref().map_or(DVec2::ZERO, |middles| {
+            let of_hand = lines.hand_middles[side].as_ref().filter(|_| share > 0.0);
+            let leaving = of_hand.map_or(DVec2::ZERO, |[across, front]| {
                 let of = |row: &Row| monotone_cubic(&places, row, (s - length) / hand_length) - row[0];
-                share * DVec2::new(of(&middles[0]), of(&middles[1]))
+                share * DVec2::new(of(across), of(front))
             });
             let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
             let middle = DVec2::new(at(&middles[0]), at(&middles[1]));
