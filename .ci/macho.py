@@ -6,7 +6,8 @@
                                                      page of which is hashed again; arm64 must have one
     macho.py FILE PROCESSOR needs | exports          prints libraries that it loads, or symbols that it exports
     macho.py FILE PROCESSOR keep PREFIX              hides all symbols but those of this prefix, in a file for one processor,
-                                                     and signs it anew: zig's linker exports all that Rust has
+                                                     and signs it anew: zig's linker exports all that Rust has. Files that
+                                                     debug information was in are named no more, with an empty prefix too
     macho.py OUT ARM64 X86_64 join                   puts two files for one processor each into one, archives too
 """
 import hashlib
@@ -14,7 +15,8 @@ import struct
 import sys
 
 CPU = {"arm64": 0x0100000C, "x86_64": 0x01000007}
-LC_LOAD_DYLIB, LC_ID_DYLIB, LC_CODE_SIGNATURE, LC_DYLD_INFO, LC_MIN_MACOS, LC_BUILD, LC_TRIE = 0xC, 0xD, 0x1D, 0x22, 0x24, 0x32, 0x33
+N_SO, N_OSO, N_SOL = 0x64, 0x66, 0x84
+LC_SYMTAB, LC_LOAD_DYLIB, LC_ID_DYLIB, LC_CODE_SIGNATURE, LC_DYLD_INFO, LC_MIN_MACOS, LC_BUILD, LC_TRIE = 0x2, 0xC, 0xD, 0x1D, 0x22, 0x24, 0x32, 0x33
 
 
 def part_of(data, processor):
@@ -92,7 +94,15 @@ def keep(path, data, processor, prefix):
     for command, body in commands(data, processor):
         if command == LC_CODE_SIGNATURE:
             signature = struct.unpack_from("<2I", body, 8)
-        elif command in (LC_TRIE, LC_DYLD_INFO):
+        elif command == LC_SYMTAB:
+            symbols, count, names, _ = struct.unpack_from("<4I", body, 8)
+            for index in range(count):
+                name, kind = struct.unpack_from("<IB", data, symbols + 16 * index)
+                if kind in (N_SO, N_OSO, N_SOL):
+                    start = names + name
+                    end = data.index(0, start)
+                    data[start:end] = bytes(end - start)
+        elif prefix and command in (LC_TRIE, LC_DYLD_INFO):
             at, size = struct.unpack_from("<2I", body, 8 if command == LC_TRIE else 40)
             kept = [symbol for symbol in exports(bytes(data[at : at + size])) if symbol[0].startswith(prefix)]
             data[at : at + size] = trie_of(kept).ljust(size, b"\0")

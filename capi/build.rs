@@ -1,13 +1,14 @@
-//! Gives the shared library a name of its own, so that hosts find it by that name wherever it is installed.
+//! Gives a shared library a name of its own, so that hosts find it by that name wherever it is installed, and it names no folder
+//! that it was built in.
 
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
-    let target = |what: &str| std::env::var(format!("CARGO_CFG_TARGET_{what}")).unwrap_or_default();
-    match target("VENDOR").as_str() {
-        "apple" => println!("cargo::rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libsuperdeform.dylib"),
-        _ if target("FAMILY") == "unix" => {
-            println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libsuperdeform.so");
-        }
-        _ => {}
+    // Not whenever any file of the package changes: this one stands elsewhere for some.
+    println!("cargo::rerun-if-env-changed=CARGO_CFG_TARGET_VENDOR");
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let library = variable("CARGO_PKG_NAME").trim_end_matches("-capi").replace('-', "_");
+    if variable("CARGO_CFG_TARGET_VENDOR") == "apple" {
+        println!("cargo::rustc-cdylib-link-arg=-Wl,-install_name,@rpath/lib{library}.dylib");
+    } else if variable("CARGO_CFG_TARGET_FAMILY") == "unix" {
+        println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,lib{library}.so");
     }
 }

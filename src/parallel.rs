@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread::{LocalKey, Scope, ScopedJoinHandle};
+use std::thread::{Builder, LocalKey};
 
 /// The name of every thread that this module starts.
 pub const WORKER: &str = "superdeform";
@@ -114,34 +114,15 @@ pub fn collect_with<S, T: Send>(
 ) -> Vec<T> {
     let share_count = share_count(threads, count, least);
     let share = count.div_ceil(share_count).max(1);
-    let run = |indices: Range<usize>, all: &mut Vec<T>| {
+    let run = |first: usize| {
         let mut state = start();
-        all.extend(indices.map(|index| make(&mut state, index)));
+        (first..(first + share).min(count)).map(|index| make(&mut state, index)).collect()
     };
-    let mut all = Vec::with_capacity(count);
     if share_count == 1 {
-        run(0..count, &mut all);
-        return all;
+        return run(0);
     }
-    let run = &run;
-    let work = move |first: usize| {
-        let indices = first..(first + share).min(count);
-        let mut all = Vec::with_capacity(indices.len());
-        run(indices, &mut all);
-        all
-    };
-    if let Some(jobs) = jobs() {
-        all.extend(by_jobs(&*jobs, count.div_ceil(share), |index| work(index * share)).into_iter().flatten());
-        return all;
-    }
-    std::thread::scope(|scope| {
-        let others: Vec<_> =
-            (share..count).step_by(share).map(|first| beside(scope, move || work(first))).collect();
-        run(0..share.min(count), &mut all);
-        for other in others {
-            all.extend(joined(other));
-        }
-    });
+    let mut all = Vec::with_capacity(count);
+    of_tasks(count.div_ceil(share), |index| run(index * share)).for_each(|share: Vec<T>| all.extend(share));
     all
 }
 
@@ -178,41 +159,38 @@ pub fn in_shares<R: Default, P: Send>(
     });
 }
 
-/// `make` of every index below `count`, in order, by `jobs`. What these leave out is done here; what they do twice, once.
-fn by_jobs<T: Send>(jobs: &dyn Jobs, count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
+/// `make` of every index below `count`, in order, each as a task of its own. What nobody did is done here; what a host's jobs do
+/// twice, once.
+fn of_tasks<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> impl Iterator<Item = T> {
     let places: Vec<Mutex<Option<std::thread::Result<T>>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    jobs.run(count, &|index| {
+    run(count, &|index| {
         let Some(place) = places.get(index) else { return };
-        let mut place = lock(place);
-        if place.is_none() {
-            // The host's threads are its own: a task uses no others, and no panic leaves it.
-            let work = || catch_unwind(AssertUnwindSafe(|| make(index)));
-            *place = Some(within(&IN_TASK, || alone(work)));
-        }
+        // No panic leaves a task.
+        lock(place).get_or_insert_with(|| catch_unwind(AssertUnwindSafe(|| make(index))));
     });
-    let made = places.into_iter().enumerate().map(|(index, place)| {
+    places.into_iter().enumerate().map(move |(index, place)| {
         let made = place.into_inner().unwrap_or_else(PoisonError::into_inner);
         made.map_or_else(|| make(index), |made| made.unwrap_or_else(|panic| resume_unwind(panic)))
-    });
-    made.collect()
+    })
 }
 
-/// Has `work` done by a thread of its own, if the system starts one: sandboxes and limits may forbid it, and the work is given
-/// back.
-fn beside<'scope, T: Send + 'scope, W: Clone + FnOnce() -> T + Send + 'scope>(
-    scope: &'scope Scope<'scope, '_>,
-    work: W,
-) -> Result<ScopedJoinHandle<'scope, T>, W> {
-    let thread = std::thread::Builder::new().name(WORKER.to_string());
-    thread.spawn_scoped(scope, work.clone()).map_err(|_| work)
-}
-
-/// What work gives that is done beside this, or is left to be done; a panic of it goes on here.
-fn joined<T>(work: Result<ScopedJoinHandle<'_, T>, impl FnOnce() -> T>) -> T {
-    match work {
-        Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-        Err(work) => work(),
+/// Runs `task` of every index below `count` by the host's jobs, else on threads, the first on this one; what the system starts no
+/// thread for is left out: sandboxes and limits may forbid it.
+fn run(count: usize, task: &(dyn Fn(usize) + Sync)) {
+    match jobs() {
+        // The host's threads are its own: a task uses no others.
+        Some(jobs) => jobs.run(count, &|index| within(&IN_TASK, || alone(|| task(index)))),
+        None => std::thread::scope(|scope| {
+            for index in 1..count {
+                let _ = worker().spawn_scoped(scope, move || task(index));
+            }
+            task(0);
+        }),
     }
+}
+
+fn worker() -> Builder {
+    Builder::new().name(WORKER.to_string())
 }
 
 /// Both results, made side by side where there are two threads to use and they are the library's own.
@@ -221,9 +199,13 @@ pub fn both<A: Send, B>(threads: usize, one: impl Fn() -> A + Sync, other: impl 
         return (one(), other());
     }
     std::thread::scope(|scope| {
-        let one = beside(scope, &one);
+        let thread = worker().spawn_scoped(scope, &one);
         let other = other();
-        (joined(one), other)
+        let one = match thread {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            Err(_) => one(),
+        };
+        (one, other)
     })
 }
 
