@@ -289,7 +289,7 @@ fn fingers_that_curl_hook_less_than_a_short_hand_grows_stubby_and_its_thumb_is_a
 }
 
 #[test]
-fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other() {
+fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other_and_the_thumb_in_their_plane() {
     let target = "makehuman_female_rigged.glb";
     if !at_hand() || model(target).is_none() {
         return;
@@ -304,6 +304,25 @@ fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other() {
     let (before, after) = (spread(run.before()), spread(&run.after()));
     assert!(before > 0.2, "the fingers lie together: {before}");
     assert!(after < 0.6 * before, "{before} before, {after} after");
+    // The sine of the angle between thumb and fingers' plane. Slices that become several times as thick for their length would
+    // make twice as much of it, were the thumb not turned.
+    let off_plane = |figure: &Figure| {
+        let place = |role: Role| figure.role_position(role).unwrap();
+        let fingers = [
+            [Role::LeftIndexProximal, Role::LeftIndexDistal],
+            [Role::LeftMiddleProximal, Role::LeftMiddleDistal],
+            [Role::LeftRingProximal, Role::LeftRingDistal],
+            [Role::LeftLittleProximal, Role::LeftLittleDistal],
+        ]
+        .map(|ends| ends.map(place));
+        let together = fingers.iter().map(|[root, end]| end - root).sum::<DVec3>();
+        let normal = (fingers[3][0] - fingers[0][0]).cross(together).normalize();
+        let thumb = place(Role::LeftThumbDistal) - place(Role::LeftThumbMetacarpal);
+        thumb.normalize().dot(normal).abs()
+    };
+    let (before, after) = (off_plane(run.before()), off_plane(&run.after()));
+    assert!(before > 0.2, "the thumb lies in the plane: {before}");
+    assert!(after < 0.75 * before, "{before} before, {after} after");
 }
 
 #[test]

@@ -127,7 +127,7 @@ pub fn part_bindings(
         weights: &weights,
     };
     let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
-    let digits: Vec<Option<usize>> = Role::all().map(|role| digit_of(figure, role)).collect();
+    let digits: Vec<Option<usize>> = Role::all().map(digit_of).collect();
     for (attachment, row) in attachments.iter_mut().zip(&figure.role_weights) {
         let mut shares = [0.0; 5];
         for &(role, weight) in row {
@@ -213,10 +213,10 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
 }
 
 /// Which finger the bone of `role` is a free bone of, thumb first.
-fn digit_of(figure: &Figure, role: Role) -> Option<usize> {
+fn digit_of(role: Role) -> Option<usize> {
     // To list a hand's roles takes longer than to see that one is of no hand.
     let is_of_hand = matches!(Part::of(role), Part::LeftHand | Part::RightHand);
-    let digits = is_of_hand.then(|| digits(&figure.humanoid, role.is_left()))?;
+    let digits = is_of_hand.then(|| digits(role.is_left()))?;
     digits.iter().position(|digit| digit.contains(&role))
 }
 
@@ -244,7 +244,7 @@ pub fn joint_binding(figure: &Figure, bindings: &PartBindings, joint: usize) -> 
     }
     if let Some(piece) = bindings.joint_pieces[joint] {
         binding.attachment = Attachment::Piece(piece);
-    } else if let Some(digit) = digit_of(figure, role) {
+    } else if let Some(digit) = digit_of(role) {
         binding.attachment = Attachment::Digits([0, 1, 2, 3, 4].map(|of| f32::from(of == digit)));
     } else if role == Role::Head && figure.humanoid.joint(role) != Some(joint) {
         binding = PartBinding::to(Part::Hair);

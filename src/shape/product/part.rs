@@ -1,7 +1,7 @@
 //! The parts of a body that product mode moves by one map each, and a vertex's weights to them.
 
+use crate::character::Role;
 use crate::character::humanoid::LEFT_FINGERS;
-use crate::character::{Humanoid, Role};
 
 /// One of the parts of a body that move by one map each: fifteen, and hair, whose map is the head's above the chin.
 #[allow(missing_docs)]
@@ -86,14 +86,9 @@ pub fn fold_to_parts(role_weights: &[(Role, f64)]) -> PartWeights {
     parts
 }
 
-/// The roles of the free bones of each finger, thumb first: a thumb's root in the palm stays where that is, and the next bone
-/// stands twice.
-pub fn digits(humanoid: &Humanoid, left: bool) -> [[Role; 3]; 5] {
-    let mut digits = LEFT_FINGERS.map(|finger| finger.map(|role| role.on_side(left)));
-    if humanoid.has(digits[0][1]) {
-        digits[0][0] = digits[0][1];
-    }
-    digits
+/// The roles of the bones of each finger, thumb first, whose first bone lies in the palm.
+pub fn digits(left: bool) -> [[Role; 3]; 5] {
+    LEFT_FINGERS.map(|finger| finger.map(|role| role.on_side(left)))
 }
 
 /// Adds `factor` times `row` to `sum`.

@@ -317,15 +317,11 @@ impl PartField {
         }
     }
 
-    /// A piece goes where the body carries its anchor, and grows as it would if it went with the body there: the similarity that
-    /// comes nearest to that, by least squares.
+    /// A piece goes where the body carries its anchor, and grows in all directions as that does in the mean.
     fn piece_map(&self, piece: &Piece) -> Affine {
         let to =
             self.map(piece.anchor, &PartBinding { weights: piece.weights, ..PartBinding::to(Part::Torso) });
-        let spread = piece.spread;
-        let along = (0..3).map(|axis| to.jacobian.row(axis).dot(spread.col(axis))).sum::<f64>();
-        let all = (0..3).map(|axis| spread.col(axis)[axis]).sum::<f64>();
-        let mut scale = if along > 0.0 && all > 0.0 { along / all } else { to.local_scale() };
+        let mut scale = to.local_scale();
         if piece.lowest >= self.before().sole && piece.anchor.y > piece.lowest {
             // What did not reach the ground does not reach below it.
             scale = scale

@@ -1,12 +1,13 @@
 //! What keeps its shape: hats, bags, buttons move and scale as one (product mode).
 
 use super::anatomy::{Anatomy, Limb};
+use super::joint_bindings::arm_binding;
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
-use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, marked, neighbours, outer, range};
+use crate::geometry::{Bounds, PointTree, Weld, bounds, clusters, foot, marked, neighbours, range};
 use crate::shape::figure::Figure;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Loose pieces smaller than this share of H keep their shape: buttons, buckles, badges. D26. Seen: without, 33 more
@@ -47,8 +48,6 @@ pub struct Piece {
     pub anchor: DVec3,
     /// The height of its lowest vertex.
     pub lowest: f64,
-    /// The covariance of its vertices.
-    pub spread: DMat3,
     /// The parts that move the anchor.
     pub weights: PartWeights,
 }
@@ -120,15 +119,10 @@ impl Pieces {
         pieces
     }
 
-    /// Makes one piece of `members`, of which `places` are one at each place, as how often seams repeat one must not matter; held
-    /// at `anchor`, which the parts move by `weights`.
-    fn add(&mut self, figure: &Figure, members: &[u32], places: &[u32], anchor: DVec3, weights: PartWeights) {
-        let positions = || places.iter().map(|&vertex| figure.positions[vertex as usize]);
-        let middle = positions().sum::<DVec3>() / places.len() as f64;
-        let spread =
-            positions().map(|p| outer(p - middle, p - middle)).fold(DMat3::ZERO, |sum, one| sum + one);
-        let lowest = positions().map(|p| p.y).fold(f64::INFINITY, f64::min);
-        let piece = Piece { anchor, lowest, spread: spread * (1.0 / places.len() as f64), weights };
+    /// Makes one piece of `members`, held at `anchor`, which the parts move by `weights`.
+    fn add(&mut self, figure: &Figure, members: &[u32], anchor: DVec3, weights: PartWeights) {
+        let (lowest, _) = range(members.iter().map(|&vertex| figure.positions[vertex as usize].y));
+        let piece = Piece { anchor, lowest, weights };
         for &vertex in members {
             self.attachments[vertex as usize] = Attachment::Piece(self.pieces.len());
         }
@@ -188,8 +182,7 @@ impl Pieces {
             // The body carries the piece at its own joint; the part it folds into moves that point.
             let role = figure.joint_roles[joint].unwrap_or(Role::Hips);
             piece_of_top[joint] = Some(self.pieces.len());
-            let places = once(weld, &carried[joint]);
-            self.add(figure, &carried[joint], &places, figure.joints[joint], Part::of(role).alone());
+            self.add(figure, &carried[joint], figure.joints[joint], Part::of(role).alone());
         }
         self.of_joints = top.iter().map(|top| top.and_then(|top| piece_of_top[top])).collect();
         let piece_of = |vertex: u32| main(vertex).and_then(|joint| self.of_joints[joint]);
@@ -233,7 +226,7 @@ impl Pieces {
             let is_held = |&&(_, distance): &&(u32, f64)| distance <= least + TOUCHING * figure.height();
             let held: Vec<u32> = away.iter().filter(is_held).map(|&(vertex, _)| vertex).collect();
             let anchor = held.iter().map(|&vertex| place(vertex)).sum::<DVec3>() / held.len() as f64;
-            self.add(figure, &all, &places, anchor, mean_weights(sources.weights, &held));
+            self.add(figure, &all, anchor, mean_weights(sources.weights, &held));
         }
     }
 
@@ -269,8 +262,8 @@ impl Pieces {
             if (high - low).max_element() > limit || !is_loose {
                 continue;
             }
-            let places = once(weld, members);
-            self.add(figure, members, &places, (low + high) / 2.0, mean_weights(weights, &places));
+            let weights = mean_weights(weights, &once(weld, members));
+            self.add(figure, members, (low + high) / 2.0, weights);
         }
     }
 }
@@ -324,7 +317,9 @@ fn strands<'a>(
 /// For each joint the uppermost joint without a role that it hangs from, below a joint that has one.
 fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let joint_count = figure.joints.len();
-    let has_role = marked(joint_count, figure.humanoid.iter().map(|(_, joint)| joint));
+    // A twist joint of an arm is the arm's: what it moves is worn there, and goes along as the arm becomes shorter.
+    let twists = (0..joint_count).filter(|&joint| arm_binding(figure, joint).is_some());
+    let has_role = marked(joint_count, figure.humanoid.iter().map(|(_, joint)| joint).chain(twists));
     (0..joint_count)
         .map(|joint| {
             if has_role[joint] || figure.joint_roles[joint].is_none() {

@@ -3,7 +3,7 @@
 
 use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
-use super::slice_scales::{Scales, SliceScales, Strengths, scales};
+use super::slice_scales::{Scales, SliceScales, Strengths, mitt, scales};
 use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
@@ -71,7 +71,12 @@ impl Chart {
             _ => grows.lengths[chain] / frame.head_length() * height,
         };
         let relief = self.reaches.relief(frame, strength, place);
-        let (smooth, lines) = self.smoothed(&relief);
+        let (mut smooth, lines) = self.smoothed(&relief);
+        if let (Some(hand), Some(wanted), Some(closed)) = (&mut smooth.hand, wanted.hand, lines.closed_hand) {
+            // What becomes a mitt is as large as its thumb leaves it.
+            let share = mitt(std::array::from_fn(|axis| wanted[axis] / hand[axis]));
+            *hand = std::array::from_fn(|axis| hand[axis] * (closed[axis] / hand[axis]).powf(share));
+        }
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);

@@ -1,7 +1,7 @@
 //! Measures a profile: some seventy cuts, each read around the bones.
 
 use super::chains::{Chain, Chains};
-use super::map::on_bones;
+use super::map::{DigitMap, on_bones};
 use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, hits, slice_around};
 use super::{
@@ -18,6 +18,7 @@ use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb};
 use crate::shape::product::part::digits;
 use glam::{DVec2, DVec3};
+use std::borrow::Cow;
 
 /// What reaches further than this over the middle is no leg, in head lengths.
 const OVER_MIDDLE: f64 = 0.012;
@@ -62,6 +63,37 @@ pub struct BodyFrame {
     pub middle_x: f64,
     /// The joints of each finger, thumb first.
     pub digits: [[Option<[DVec3; 3]>; 5]; 2],
+    /// Where the fingers but for the thumb have no joints, none.
+    pub palms: [Option<Palm>; 2],
+}
+
+/// The plane in which a hand's fingers lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Palm {
+    /// The middle of the fingers' roots.
+    pub middle: DVec3,
+    /// From the first finger to the last, at right angles to all of them together; a unit vector.
+    pub apart: DVec3,
+    /// The plane's; a unit vector.
+    pub normal: DVec3,
+}
+
+impl Palm {
+    /// That of fingers of these joints; `None` for fewer than two.
+    fn of(fingers: &[Option<[DVec3; 3]>]) -> Option<Self> {
+        let fingers: Vec<[DVec3; 3]> = fingers.iter().copied().flatten().collect();
+        let (first, last) = (fingers.first()?, fingers.last()?);
+        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
+        let apart = (last[0] - first[0]).reject_from(together).try_normalize()?;
+        let normal = apart.cross(together).try_normalize()?;
+        let middle = fingers.iter().map(|[root, ..]| root).sum::<DVec3>() / fingers.len() as f64;
+        Some(Self { middle, apart, normal })
+    }
+
+    /// The way from `p` to the plane.
+    pub fn way_to(&self, p: DVec3) -> DVec3 {
+        (self.middle - p).project_onto_normalized(self.normal)
+    }
 }
 
 impl BodyFrame {
@@ -75,10 +107,11 @@ impl BodyFrame {
             .collect();
         let digit = |roles: [Role; 3]| {
             let [root, middle, end] = roles.map(|role| figure.role_position(role));
-            let end = end.or(middle);
-            (root?.distance(end?) > 0.0).then_some([root?, middle.or(root)?, end?])
+            let (root, end) = (root.or(middle)?, end.or(middle)?);
+            (root.distance(end) > 0.0).then_some([root, middle.unwrap_or(root), end])
         };
-        let digits_of = |side: usize| digits(&figure.humanoid, side == 0).map(digit);
+        let digits_of = |side: usize| digits(side == 0).map(digit);
+        let digits = [0, 1].map(digits_of);
         let heights = anatomy.landmarks.heights;
         let sign = |limb: usize| if limbs[limb].end.x < limbs[limb ^ 1].end.x { -1.0 } else { 1.0 };
         Self {
@@ -87,7 +120,8 @@ impl BodyFrame {
             signs: [0, 1, 2, 3].map(sign),
             leg_length: heights.crotch - (limbs[2].end.y + limbs[3].end.y) / 2.0,
             arm_lengths: [0, 1].map(|side| limbs[side].root.distance(limbs[side].end)),
-            digits: [0, 1].map(digits_of),
+            palms: digits.map(|of_side| Palm::of(&of_side[1..])),
+            digits,
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
@@ -157,7 +191,12 @@ pub struct BodyLines {
     pub arm_middles: [Option<[Row; 2]>; 2],
     /// The same of hands, at the same parts of their own lengths, in the arms' planes.
     pub hand_middles: [Option<[Row; 2]>; 2],
+    /// Length, half breadth and half thickness of hands whose thumbs are closed as a mitt's, in head lengths.
+    pub closed_hand: Option<[f64; 3]>,
 }
+
+/// Length, half breadth, half thickness of hands as they are, and with their thumbs closed, in head lengths.
+type Hands = [Option<[f64; 3]>; 2];
 
 /// Measures the profile of a figure whose vertices are at `positions`.
 ///
@@ -183,7 +222,7 @@ pub fn measure_profile(
         let places = weld.first_vertices();
         (body.arms(), body.hands(&places), body.foot(&places))
     };
-    let ((torso, (leg, skirt), neck), ((arm, arm_middles), (hand, hand_middles), foot)) =
+    let ((torso, (leg, skirt), neck), ((arm, arm_middles), ([hand, closed_hand], hand_middles), foot)) =
         parallel::both(body.worth(threads), trunk, limbs);
     let length = body.length;
     let profile = Profile {
@@ -198,7 +237,7 @@ pub fn measure_profile(
             / (2.0 * length),
         arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
-    (profile.sound(), BodyLines { arm_middles, hand_middles })
+    (profile.sound(), BodyLines { arm_middles, hand_middles, closed_hand })
 }
 
 /// A body to be measured, as it is now.
@@ -323,44 +362,73 @@ impl Body<'_> {
         (arm, middles)
     }
 
-    /// Length, half breadth, half thickness; the middles of each, in its arm's planes.
-    fn hands(&self, places: &[u32]) -> (Option<[f64; 3]>, [Option<[Row; 2]>; 2]) {
+    /// Length, half breadth, half thickness; the same of hands whose thumbs are closed, and the middles of these.
+    fn hands(&self, places: &[u32]) -> (Hands, [Option<[Row; 2]>; 2]) {
         let mut middles = [None, None];
-        let sides: Vec<[f64; 3]> = middles
-            .iter_mut()
-            .enumerate()
-            .filter_map(|(side, middles)| {
-                let limb = &self.frame.limbs[side];
-                let planes = Planes { origin: limb.end, ..self.frame.arm_planes(side)? };
-                let points: Vec<(f64, DVec2)> = places
-                    .iter()
-                    .map(|&vertex| vertex as usize)
-                    .filter(|&vertex| self.chains.hold(vertex, Chain::Hand(side)))
-                    .map(|vertex| planes.locate(self.positions[vertex]))
-                    .filter(|point| point.0 > BEYOND * self.length)
-                    .collect();
-                let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
-                *middles = self.hand_middles(side, &planes, length);
-                let palm = || {
-                    points
-                        .iter()
-                        .filter(|point| (HAND_PALM.0..=HAND_PALM.1).contains(&(point.0 / length)))
-                        .map(|point| point.1)
-                };
-                let half = |axis: fn(DVec2) -> f64| {
-                    let low = quantile(palm().map(axis), HAND_SIDES.0)?;
-                    Some((quantile(palm().map(axis), HAND_SIDES.1)? - low) / 2.0)
-                };
-                Some([length, half(|p| p.y)?, half(|p| p.x)?])
-            })
+        let mut closed_sides = Vec::new();
+        let mut sides = Vec::new();
+        for (side, middles) in middles.iter_mut().enumerate() {
+            let Some(planes) = self.frame.arm_planes(side) else { continue };
+            let planes = Planes { origin: self.frame.limbs[side].end, ..planes };
+            let Some(open) = self.hand(side, places, &planes, self.positions) else { continue };
+            let closed = self.with_closed_thumb(side);
+            *middles = self.hand_middles(side, &closed, &planes, open[0]);
+            closed_sides.extend(self.hand(side, places, &planes, &closed));
+            sides.push(open);
+        }
+        let mean = |sides: &[[f64; 3]]| mean_numbers(sides, self.length);
+        ([mean(&sides), mean(&closed_sides)], middles)
+    }
+
+    /// Length, half breadth, half thickness of a hand where the vertices are at `positions`.
+    fn hand(&self, side: usize, places: &[u32], planes: &Planes, positions: &[DVec3]) -> Option<[f64; 3]> {
+        let points: Vec<(f64, DVec2)> = places
+            .iter()
+            .map(|&vertex| vertex as usize)
+            .filter(|&vertex| self.chains.hold(vertex, Chain::Hand(side)))
+            .map(|vertex| planes.locate(positions[vertex]))
+            .filter(|point| point.0 > BEYOND * self.length)
             .collect();
-        (mean_numbers(&sides, self.length), middles)
+        let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
+        let palm = || {
+            points
+                .iter()
+                .filter(|point| (HAND_PALM.0..=HAND_PALM.1).contains(&(point.0 / length)))
+                .map(|point| point.1)
+        };
+        let half = |axis: fn(DVec2) -> f64| {
+            let low = quantile(palm().map(axis), HAND_SIDES.0)?;
+            Some((quantile(palm().map(axis), HAND_SIDES.1)? - low) / 2.0)
+        };
+        Some([length, half(|p| p.y)?, half(|p| p.x)?])
+    }
+
+    /// Where the vertices are with a hand's thumb as a mitt's.
+    fn with_closed_thumb(&self, side: usize) -> Cow<'_, [DVec3]> {
+        let (thumb, palm) = (self.frame.digits[side][0], self.frame.palms[side].as_ref());
+        let Some(closing) = thumb.zip(palm).map(|(joints, palm)| DigitMap::closing(joints, palm, 1.0)) else {
+            return Cow::Borrowed(self.positions);
+        };
+        let roles = digits(side == 0)[0];
+        let closed = |(vertex, &p): (usize, &DVec3)| {
+            if !self.chains.hold(vertex, Chain::Hand(side)) {
+                return p;
+            }
+            p + self.figure.weight_of(vertex, |role| roles.contains(&role)) * closing.way(p)
+        };
+        Cow::Owned(self.positions.iter().enumerate().map(closed).collect())
     }
 
     /// The middles of what cuts through a hand show: vertices would not do, a box has them at its ends alone.
-    fn hand_middles(&self, side: usize, planes: &Planes, length: f64) -> Option<[Row; 2]> {
-        let cuts =
-            self.cut(&self.triangles(Chain::Hand(side)), planes, &stations(ARM_STATIONS).map(|t| t * length));
+    fn hand_middles(
+        &self,
+        side: usize,
+        positions: &[DVec3],
+        planes: &Planes,
+        length: f64,
+    ) -> Option<[Row; 2]> {
+        let heights = stations(ARM_STATIONS).map(|t| t * length);
+        let cuts = slices(positions, &self.triangles(Chain::Hand(side)), self.weld, planes, &heights);
         let middles: Vec<DVec2> = cuts.iter().map(|cut| middle(cut).unwrap_or(DVec2::NAN)).collect();
         let row = |axis: usize| std::array::from_fn(|at| middles[at][axis] / self.length);
         self.lines([&row(0), &row(1)])

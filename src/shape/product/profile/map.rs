@@ -5,15 +5,15 @@
 
 use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::cuts::{BodyFrame, BodyLines};
+use super::cuts::{BodyFrame, BodyLines, Palm};
 use super::relief::MOST_ROWS;
 use super::slab::slab;
-use super::slice_scales::Scales;
+use super::slice_scales::{Scales, mitt};
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
 use crate::shape::product::part::{NECK, Part, PartWeights, TORSO};
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
 const ROWS_PER_HEAD: f64 = 100.0;
@@ -32,12 +32,12 @@ const PALM: f64 = 0.45;
 const KNUCKLES: f64 = 0.08;
 /// Fingers become this much shorter than palms, as a power of the hand's own scale.
 const FINGERS_SHORTER: f64 = 1.3;
-/// A hand that becomes this much more thick than long, less 1, is a mitt. Seen: ±30 % changes no adult's hand of a body of 2
-/// heads or of the rogue's, which become 1.0 to 1.6; at 3 heads, .2 to .6, a mitt is a third more or less of one.
-const MITT: f64 = 0.5;
 /// A mitt's fingers become this much thicker, less 1; not the thumb, which is a spike on a low-poly hand then. Seen: no triangle
 /// of 154 results turns for it.
 const THICKER: f64 = 0.3;
+/// A mitt's thumb comes so much of the way from its root to the plane of the fingers. Seen: of 154 results 652 triangles turn at 0,
+/// where it hangs below the palm, 640 at .2 and at .3, 780 at .4: the skin between both is no longer than that.
+const TO_PALM: f64 = 0.3;
 /// A neck's surface, in its radii: collars lie on it.
 const NECK_REACH: f64 = 1.2;
 /// Half extents where a body has none that were measured, in head lengths; nothing is scaled there.
@@ -89,17 +89,20 @@ struct ArmMap {
 
 /// What makes a finger a part of a mitt: it lies beside the others, short and thick.
 #[derive(Clone, Copy, Debug)]
-struct DigitMap {
+pub(super) struct DigitMap {
     /// Where it leaves the hand, the unit vector from there to its last joint, and how far that is.
     root: DVec3,
     axis: DVec3,
     length: f64,
     /// How far along that the joint between is, and how far beside it.
     bend: (f64, DVec3),
-    /// Where the axis leads.
+    /// Where the axis leads, a unit vector, and how much longer what is beyond the joint between becomes.
     to: DVec3,
-    /// How much thicker it becomes, less 1.
-    thicker: f64,
+    longer: f64,
+    /// What becomes of a way beside the bones, less that way: turned with the axis, and thicker.
+    beside: DMat3,
+    /// How far all of it goes.
+    shift: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -292,26 +295,25 @@ impl BodyMap {
         let elbow = planes.locate(frame.limbs[side].middle);
         let (bone_scale, hand_fade) = (scales.arm_length, HAND_FADE * hand_length);
         let [long, broad, thin] = scales.hand;
-        let mitt = smoothstep(((broad * thin).sqrt() / long - 1.0) / MITT);
+        let mitt = mitt(scales.hand);
         let of_side = frame.digits[side];
-        let fingers: Vec<[DVec3; 3]> = of_side[1..].iter().copied().flatten().collect();
-        // From the first finger to the last, at right angles to all of them together.
-        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
-        let across = fingers.first().zip(fingers.last()).map(|(first, last)| last[0] - first[0]);
-        let apart = across.unwrap_or_default().reject_from(together).normalize_or_zero();
+        let plane = frame.palms[side];
         let digits = [0, 1, 2, 3, 4].map(|digit| {
             // Fingers of a hand that is no mitt are left to the slices.
             let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
             let still = DigitMap::new(joints);
-            let axis = still.axis;
-            if digit == 0 {
-                // A thumb becomes as short as the hand.
-                let along = [planes.axis, planes.across, planes.front].map(|of_arm| axis.dot(of_arm));
-                let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
-                return Some(DigitMap { to: (long / grown.length()).min(1.0) * axis, ..still });
+            if digit > 0 {
+                return Some(still.without(
+                    plane.map_or(DVec3::ZERO, |plane| plane.apart),
+                    mitt,
+                    1.0 + THICKER * mitt,
+                ));
             }
-            let to = (axis - mitt * axis.dot(apart) * apart).normalize_or(axis);
-            Some(DigitMap { to, thicker: THICKER * mitt, ..still })
+            let closing = plane.map_or(still, |plane| DigitMap::closing(joints, &plane, mitt));
+            // A thumb becomes as short as the hand.
+            let along = [planes.axis, planes.across, planes.front].map(|of_arm| closing.to.dot(of_arm));
+            let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
+            Some(DigitMap { longer: (long / grown.length()).min(1.0), ..closing })
         });
         Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade, digits })
     }
@@ -332,7 +334,8 @@ pub(super) fn on_bones(elbow: (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
 
 /// How far off a line lies what leaves it by 1, so far along it, without a kink; and the slope there.
 fn leaving(along: f64, length: f64) -> [f64; 2] {
-    let (s, fade) = (along.max(0.0), HAND_FADE * length);
+    // Nothing is long where a finger's last joint is its middle one.
+    let (s, fade) = (along.max(0.0), (HAND_FADE * length).max(1e-30));
     [s * s / (s + fade), s * (s + 2.0 * fade) / ((s + fade) * (s + fade))]
 }
 
@@ -343,31 +346,56 @@ impl DigitMap {
         let along = (middle - root).dot(axis);
         // What lies beyond the last joint is not between: the bones would end beside it.
         let off = if along < length { middle - root - along * axis } else { DVec3::ZERO };
-        Self { root, axis, length, bend: (along, off), to: axis, thicker: 0.0 }
+        let bend = (along, off);
+        Self { root, axis, length, bend, to: axis, longer: 1.0, beside: DMat3::ZERO, shift: DVec3::ZERO }
     }
 
-    /// Where `p` of the finger is along it and beside its bones, and how much thicker it becomes there, less 1, with the slope.
-    fn locate(&self, p: DVec3) -> (f64, DVec3, (f64, f64)) {
+    /// That of a thumb which `share` of the way becomes that of a mitt: it turns into the plane of the fingers, and comes
+    /// nearer to it.
+    pub(super) fn closing(joints: [DVec3; 3], palm: &Palm, share: f64) -> Self {
+        let turned = Self::new(joints).without(palm.normal, share, 1.0);
+        Self { shift: share * TO_PALM * palm.way_to(joints[0]), ..turned }
+    }
+
+    /// Turned so that `share` of what leads along the unit vector `way` is gone, and so much thicker.
+    fn without(self, way: DVec3, share: f64, thicker: f64) -> Self {
+        let axis = self.axis;
+        let to = (axis - share * axis.dot(way) * way).normalize_or(axis);
+        let turn = DMat3::from_quat(DQuat::from_rotation_arc(self.axis, to));
+        Self { to, beside: thicker * turn - DMat3::IDENTITY, ..self }
+    }
+
+    /// How far along the axis `p` of the finger is, what is beside its bones there, and how much of [`Self::beside`] that
+    /// takes, with the slope.
+    fn locate(&self, p: DVec3) -> (f64, DVec3, [f64; 2]) {
         let along = (p - self.root).dot(self.axis);
         let [bone, _] = beside(self.bend.0, self.length, along);
         let over = 2.0 * HAND_FADE * self.length;
         let (share, slope) = smoothstep_slope(along / over);
-        let thicker = (self.thicker * share, self.thicker * slope / over);
-        (along, p - self.root - along * self.axis - bone * self.bend.1, thicker)
+        (along, p - self.root - along * self.axis - bone * self.bend.1, [share, slope / over])
+    }
+
+    /// How far what is so far along the bones goes, and the slope there.
+    fn bones(&self, along: f64) -> [DVec3; 2] {
+        let turned = leaving(along, self.length);
+        let beyond = leaving(along - self.bend.0, self.length - self.bend.0);
+        [0, 1].map(|which| {
+            turned[which] * (self.to - self.axis) + (self.longer - 1.0) * beyond[which] * self.to
+        })
     }
 
     /// How far `p` goes.
-    fn way(&self, p: DVec3) -> DVec3 {
-        let (along, off, (thicker, _)) = self.locate(p);
-        leaving(along, self.length)[0] * (self.to - self.axis) + thicker * off
+    pub(super) fn way(&self, p: DVec3) -> DVec3 {
+        let (along, off, [share, _]) = self.locate(p);
+        self.shift + self.bones(along)[0] + share * (self.beside * off)
     }
 
     /// The derivative of [`Self::way`].
     fn slope(&self, p: DVec3) -> DMat3 {
-        let (along, off, (thicker, slope)) = self.locate(p);
+        let (along, off, [share, slope]) = self.locate(p);
         let bone = self.axis + beside(self.bend.0, self.length, along)[1] * self.bend.1;
-        let by_place = leaving(along, self.length)[1] * (self.to - self.axis) + slope * off - thicker * bone;
-        DMat3::from_diagonal(DVec3::splat(thicker)) + outer(by_place, self.axis)
+        let by_place = self.bones(along)[1] + self.beside * (slope * off - share * bone);
+        self.beside * share + outer(by_place, self.axis)
     }
 }
 

@@ -6,13 +6,9 @@ use super::slab::soft_scale;
 use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::smoothstep;
 
-/// Soft limits of ln S: of slices, hands and feet.
+/// Soft limits of ln S: of slices and hands, and of feet.
 const MOST: f64 = 2.4;
-const MOST_OF_HAND: f64 = 1.5;
 const MOST_OF_FOOT: f64 = 0.6;
-/// The scales of a hand (a foot) along its axes stay within this of their mean, in logarithms.
-const HAND_SPREAD: f64 = 0.8;
-const FOOT_SPREAD: f64 = 0.25;
 /// A hand this much broader than thick lies flat; one as broad as thick is a fist.
 const FLAT_HAND: f64 = 1.3;
 /// The part of a line's own curve that goes over to the wanted one's.
@@ -46,6 +42,10 @@ const ABOVE_HEM: (f64, f64) = (0.6, 1.25);
 
 /// What a soft limit takes of a scale is told above this share of it.
 const NOTED_ABOVE: f64 = 0.1;
+
+/// A hand that becomes this much more thick than long, less 1, is a mitt. Seen: ±30 % changes no adult's hand of a body of 2
+/// heads or of the rogue's, which become 1.0 to 1.6; at 3 heads, .2 to .6, a mitt is a third more or less of one.
+const MITT: f64 = 0.5;
 
 /// How much of the way to go, by chain and slice; 1 for all.
 #[derive(Clone, Debug, PartialEq)]
@@ -205,16 +205,16 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
     if let (Some(own), Some(wanted)) = (own.hand, wanted.hand) {
         // Palms may look down or forward: what is broader is the breadth.
         let sorted = |[length, one, other]: [f64; 3]| [length, one.max(other), one.min(other)];
-        let limits = [MOST_OF_HAND, HAND_SPREAD].map(|most| strengths.limit(most));
-        let scales = soft_scales(sorted(wanted), sorted(own), strengths.hand, limits);
-        let [length, broad, thin] = scales;
         // A fist is neither, and takes the mean: last digits must not tell which way it lies.
         let lies = ((own[1] / own[2]).ln() / FLAT_HAND.ln()).clamp(-1.0, 1.0);
+        let (wanted, own, strength) = (sorted(wanted), sorted(own), strengths.hand);
+        let [length, broad, thin] = [0, 1, 2].map(|axis| {
+            let got = soft_scale(wanted[axis], own[axis], strength, most);
+            result.note("hands", wanted[axis], own[axis], strength, got);
+            got
+        });
         let along = |share: f64| (share * broad.ln() + (1.0 - share) * thin.ln()).exp();
         result.hand = [length, along((1.0 + lies) / 2.0), along((1.0 - lies) / 2.0)];
-        for (axis, got) in scales.into_iter().enumerate() {
-            result.note("hands", sorted(wanted)[axis], sorted(own)[axis], strengths.hand, got);
-        }
     }
     if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
         foot(&mut result, own, wanted, strengths);
@@ -230,6 +230,11 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         }
     };
     result
+}
+
+/// How much of a mitt, 0 to 1, a hand becomes whose length, breadth and thickness are scaled so.
+pub fn mitt([length, broad, thin]: [f64; 3]) -> f64 {
+    smoothstep(((broad * thin).sqrt() / length - 1.0) / MITT)
 }
 
 /// A reference's shorts and tunic are no flesh: its thighs taper on from below the shorts, its hips from above the hem. But
@@ -357,28 +362,17 @@ fn arm_length(result: &mut Scales, own: &Profile, wanted: &Profile, strength: f6
     }
 }
 
-/// Soft scales of some axes, with a limit of `most`, none further than `spread` from their mean, in logarithms.
-fn soft_scales<const N: usize>(
-    wanted: [f64; N],
-    own: [f64; N],
-    strength: f64,
-    [most, spread]: [f64; 2],
-) -> [f64; N] {
-    let logs: [f64; N] = std::array::from_fn(|axis| soft_scale(wanted[axis], own[axis], strength, most).ln());
-    let mean = logs.iter().sum::<f64>() / N as f64;
-    logs.map(|log| log.clamp(mean - spread, mean + spread).exp())
-}
-
 /// Along z by length, along x by breadth; heights of the toes.
 fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Strengths) {
     let strength = strengths.foot;
-    let limits = [MOST_OF_FOOT, FOOT_SPREAD].map(|most| strengths.limit(most));
     let sizes = |[toes, heel, breadth, ..]: [f64; 5]| [toes + heel, breadth];
-    let [length, breadth] = soft_scales(sizes(wanted), sizes(own), strength, limits);
+    let (before, after) = (sizes(own), sizes(wanted));
+    let most = strengths.limit(MOST_OF_FOOT);
+    let [length, breadth] = [0, 1].map(|axis| soft_scale(after[axis], before[axis], strength, most));
     let room = (own[3] + result.spread - CLEAR).max(own[2]) / own[2];
     let toes = (wanted[4] / own[4]).clamp(1.0, 1.8).powf(strength);
     result.foot = [length, breadth.min(room), toes];
     for axis in 0..2 {
-        result.note("feet", sizes(wanted)[axis], sizes(own)[axis], strength, result.foot[axis]);
+        result.note("feet", after[axis], before[axis], strength, result.foot[axis]);
     }
 }
