@@ -212,7 +212,7 @@ fn things_on_head(figure: &Figure, members: &[Vec<u32>], attachments: &[Attachme
     touching(figure, &components, ONE_THING, |_, _| true)
 }
 
-/// Which finger the bone of `role` is a free bone of, thumb first.
+/// Which finger the bone of `role` is one of, thumb first.
 fn digit_of(role: Role) -> Option<usize> {
     // To list a hand's roles takes longer than to see that one is of no hand.
     let is_of_hand = matches!(Part::of(role), Part::LeftHand | Part::RightHand);

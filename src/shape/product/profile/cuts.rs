@@ -63,8 +63,6 @@ pub struct BodyFrame {
     pub middle_x: f64,
     /// The joints of each finger, thumb first.
     pub digits: [[Option<[DVec3; 3]>; 5]; 2],
-    /// Where the fingers but for the thumb have no joints, none.
-    pub palms: [Option<Palm>; 2],
 }
 
 /// The plane in which a hand's fingers lie.
@@ -79,17 +77,6 @@ pub struct Palm {
 }
 
 impl Palm {
-    /// That of fingers of these joints; `None` for fewer than two.
-    fn of(fingers: &[Option<[DVec3; 3]>]) -> Option<Self> {
-        let fingers: Vec<[DVec3; 3]> = fingers.iter().copied().flatten().collect();
-        let (first, last) = (fingers.first()?, fingers.last()?);
-        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
-        let apart = (last[0] - first[0]).reject_from(together).try_normalize()?;
-        let normal = apart.cross(together).try_normalize()?;
-        let middle = fingers.iter().map(|[root, ..]| root).sum::<DVec3>() / fingers.len() as f64;
-        Some(Self { middle, apart, normal })
-    }
-
     /// The way from `p` to the plane.
     pub fn way_to(&self, p: DVec3) -> DVec3 {
         (self.middle - p).project_onto_normalized(self.normal)
@@ -111,7 +98,6 @@ impl BodyFrame {
             (root.distance(end) > 0.0).then_some([root, middle.unwrap_or(root), end])
         };
         let digits_of = |side: usize| digits(side == 0).map(digit);
-        let digits = [0, 1].map(digits_of);
         let heights = anatomy.landmarks.heights;
         let sign = |limb: usize| if limbs[limb].end.x < limbs[limb ^ 1].end.x { -1.0 } else { 1.0 };
         Self {
@@ -120,8 +106,7 @@ impl BodyFrame {
             signs: [0, 1, 2, 3].map(sign),
             leg_length: heights.crotch - (limbs[2].end.y + limbs[3].end.y) / 2.0,
             arm_lengths: [0, 1].map(|side| limbs[side].root.distance(limbs[side].end)),
-            palms: digits.map(|of_side| Palm::of(&of_side[1..])),
-            digits,
+            digits: [0, 1].map(digits_of),
             hips: middle(hips.iter().sum::<DVec3>() / hips.len().max(1) as f64),
             shoulders: middle((limbs[0].root + limbs[1].root) / 2.0),
             middle_x: anatomy.middle_x,
@@ -161,6 +146,17 @@ impl BodyFrame {
         let up = front.cross(axis);
         let up = if up.dot(DVec3::Y) < 0.0 { -up } else { up };
         Some(Planes { origin: limb.root, axis, across: up, front })
+    }
+
+    /// The plane of the fingers of the hand on one side; `None` where fewer than two beside the thumb have joints.
+    pub fn palm(&self, side: usize) -> Option<Palm> {
+        let fingers: Vec<[DVec3; 3]> = self.digits[side][1..].iter().copied().flatten().collect();
+        let (first, last) = (fingers.first()?, fingers.last()?);
+        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
+        let apart = (last[0] - first[0]).reject_from(together).try_normalize()?;
+        let normal = apart.cross(together).try_normalize()?;
+        let middle = fingers.iter().map(|[root, ..]| root).sum::<DVec3>() / fingers.len() as f64;
+        Some(Palm { middle, apart, normal })
     }
 
     /// From the torso's bottom to its top, model units.
@@ -370,23 +366,24 @@ impl Body<'_> {
         for (side, middles) in middles.iter_mut().enumerate() {
             let Some(planes) = self.frame.arm_planes(side) else { continue };
             let planes = Planes { origin: self.frame.limbs[side].end, ..planes };
-            let Some(open) = self.hand(side, places, &planes, self.positions) else { continue };
-            let closed = self.with_closed_thumb(side);
-            *middles = self.hand_middles(side, &closed, &planes, open[0]);
-            closed_sides.extend(self.hand(side, places, &planes, &closed));
+            let Some(open) = self.hand(side, places, &planes) else { continue };
+            let positions = self.with_closed_thumb(side);
+            let closed = Body { positions: &positions, ..*self };
+            *middles = closed.hand_middles(side, &planes, open[0]);
+            closed_sides.extend(closed.hand(side, places, &planes));
             sides.push(open);
         }
         let mean = |sides: &[[f64; 3]]| mean_numbers(sides, self.length);
         ([mean(&sides), mean(&closed_sides)], middles)
     }
 
-    /// Length, half breadth, half thickness of a hand where the vertices are at `positions`.
-    fn hand(&self, side: usize, places: &[u32], planes: &Planes, positions: &[DVec3]) -> Option<[f64; 3]> {
+    /// Length, half breadth, half thickness of a hand.
+    fn hand(&self, side: usize, places: &[u32], planes: &Planes) -> Option<[f64; 3]> {
         let points: Vec<(f64, DVec2)> = places
             .iter()
             .map(|&vertex| vertex as usize)
             .filter(|&vertex| self.chains.hold(vertex, Chain::Hand(side)))
-            .map(|vertex| planes.locate(positions[vertex]))
+            .map(|vertex| planes.locate(self.positions[vertex]))
             .filter(|point| point.0 > BEYOND * self.length)
             .collect();
         let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
@@ -405,10 +402,10 @@ impl Body<'_> {
 
     /// Where the vertices are with a hand's thumb as a mitt's.
     fn with_closed_thumb(&self, side: usize) -> Cow<'_, [DVec3]> {
-        let (thumb, palm) = (self.frame.digits[side][0], self.frame.palms[side].as_ref());
-        let Some(closing) = thumb.zip(palm).map(|(joints, palm)| DigitMap::closing(joints, palm, 1.0)) else {
+        let Some((joints, palm)) = self.frame.digits[side][0].zip(self.frame.palm(side)) else {
             return Cow::Borrowed(self.positions);
         };
+        let closing = DigitMap::new(joints).closed(&palm, 1.0);
         let roles = digits(side == 0)[0];
         let closed = |(vertex, &p): (usize, &DVec3)| {
             if !self.chains.hold(vertex, Chain::Hand(side)) {
@@ -420,15 +417,9 @@ impl Body<'_> {
     }
 
     /// The middles of what cuts through a hand show: vertices would not do, a box has them at its ends alone.
-    fn hand_middles(
-        &self,
-        side: usize,
-        positions: &[DVec3],
-        planes: &Planes,
-        length: f64,
-    ) -> Option<[Row; 2]> {
-        let heights = stations(ARM_STATIONS).map(|t| t * length);
-        let cuts = slices(positions, &self.triangles(Chain::Hand(side)), self.weld, planes, &heights);
+    fn hand_middles(&self, side: usize, planes: &Planes, length: f64) -> Option<[Row; 2]> {
+        let cuts =
+            self.cut(&self.triangles(Chain::Hand(side)), planes, &stations(ARM_STATIONS).map(|t| t * length));
         let middles: Vec<DVec2> = cuts.iter().map(|cut| middle(cut).unwrap_or(DVec2::NAN)).collect();
         let row = |axis: usize| std::array::from_fn(|at| middles[at][axis] / self.length);
         self.lines([&row(0), &row(1)])

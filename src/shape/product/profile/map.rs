@@ -297,19 +297,16 @@ impl BodyMap {
         let [long, broad, thin] = scales.hand;
         let mitt = mitt(scales.hand);
         let of_side = frame.digits[side];
-        let plane = frame.palms[side];
+        let plane = frame.palm(side);
+        let apart = plane.map_or(DVec3::ZERO, |plane| plane.apart);
         let digits = [0, 1, 2, 3, 4].map(|digit| {
             // Fingers of a hand that is no mitt are left to the slices.
             let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
             let still = DigitMap::new(joints);
             if digit > 0 {
-                return Some(still.without(
-                    plane.map_or(DVec3::ZERO, |plane| plane.apart),
-                    mitt,
-                    1.0 + THICKER * mitt,
-                ));
+                return Some(still.without(apart, mitt, 1.0 + THICKER * mitt));
             }
-            let closing = plane.map_or(still, |plane| DigitMap::closing(joints, &plane, mitt));
+            let closing = plane.map_or(still, |plane| still.closed(&plane, mitt));
             // A thumb becomes as short as the hand.
             let along = [planes.axis, planes.across, planes.front].map(|of_arm| closing.to.dot(of_arm));
             let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
@@ -341,7 +338,7 @@ fn leaving(along: f64, length: f64) -> [f64; 2] {
 
 impl DigitMap {
     /// That of a finger of these joints, which stays as it is.
-    fn new([root, middle, end]: [DVec3; 3]) -> Self {
+    pub(super) fn new([root, middle, end]: [DVec3; 3]) -> Self {
         let (axis, length) = (end - root).normalize_and_length();
         let along = (middle - root).dot(axis);
         // What lies beyond the last joint is not between: the bones would end beside it.
@@ -350,18 +347,18 @@ impl DigitMap {
         Self { root, axis, length, bend, to: axis, longer: 1.0, beside: DMat3::ZERO, shift: DVec3::ZERO }
     }
 
-    /// That of a thumb which `share` of the way becomes that of a mitt: it turns into the plane of the fingers, and comes
+    /// That of a thumb which so much of the way becomes that of a mitt: it turns into the plane of the fingers, and comes
     /// nearer to it.
-    pub(super) fn closing(joints: [DVec3; 3], palm: &Palm, share: f64) -> Self {
-        let turned = Self::new(joints).without(palm.normal, share, 1.0);
-        Self { shift: share * TO_PALM * palm.way_to(joints[0]), ..turned }
+    pub(super) fn closed(self, palm: &Palm, share: f64) -> Self {
+        let shift = share * TO_PALM * palm.way_to(self.root);
+        Self { shift, ..self.without(palm.normal, share, 1.0) }
     }
 
     /// Turned so that `share` of what leads along the unit vector `way` is gone, and so much thicker.
     fn without(self, way: DVec3, share: f64, thicker: f64) -> Self {
         let axis = self.axis;
         let to = (axis - share * axis.dot(way) * way).normalize_or(axis);
-        let turn = DMat3::from_quat(DQuat::from_rotation_arc(self.axis, to));
+        let turn = DMat3::from_quat(DQuat::from_rotation_arc(axis, to));
         Self { to, beside: thicker * turn - DMat3::IDENTITY, ..self }
     }
 
