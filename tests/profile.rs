@@ -16,7 +16,9 @@ use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::part::Part;
 use superdeform::internals::shape::product::profile::{BodyFrame, CHAINS, Profile, Row, measure_profile};
-use superdeform::{BodyShape, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style};
+use superdeform::{
+    BodyShape, Character, Deformer, GroupSettings, Options, Rig, RigOptions, Role, Stage, Style,
+};
 use superdeform_host::file::GltfFile;
 use superdeform_host::samples;
 
@@ -209,6 +211,79 @@ fn a_result_has_the_body_of_its_reference() {
         assert_eq!(report.profile.ratios.len(), 6);
         assert_eq!(report.profile.reference, shape_of(name).profile);
     }
+}
+
+/// A slim adult whose trunk's vertices, so far up from crotch (0) to shoulder line (1), are where `moved` puts them.
+fn with_trunk(moved: impl Fn(DVec3, f64) -> DVec3) -> (Character, Vec<f64>) {
+    let mut person = Person { blended: true, columns: 96, ..Person::adult() };
+    person.proportions.torso_radius *= 0.7;
+    let mut character = person.build();
+    let figure = Figure::of(&character).unwrap();
+    let of_trunk = |vertex: usize| figure.weight_of(vertex, |role| Part::of(role) == Part::Torso) > 0.99;
+    let height = |p: DVec3| (p.y - person.crotch()) / (person.shoulder_line() - person.crotch());
+    let heights = figure.positions.iter().enumerate();
+    let heights: Vec<f64> =
+        heights.map(|(vertex, &p)| if of_trunk(vertex) { height(p) } else { f64::NAN }).collect();
+    for (p, &t) in character.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions).zip(&heights) {
+        if (0.0..1.0).contains(&t) {
+            *p = moved(p.as_dvec3(), t).as_vec3();
+        }
+    }
+    (character, heights)
+}
+
+/// Height, back and front of the trunk's rings from a fifth to four fifths of it, upwards.
+fn rings(positions: &[DVec3], heights: &[f64]) -> Vec<[f64; 3]> {
+    let mut rings: BTreeMap<i64, [f64; 3]> = BTreeMap::new();
+    for (p, t) in positions.iter().zip(heights).filter(|(_, t)| (0.2..0.8).contains(*t)) {
+        let ring = rings.entry((1e4 * t).round() as i64).or_insert([p.y, p.z, p.z]);
+        *ring = [p.y, ring[1].min(p.z), ring[2].max(p.z)];
+    }
+    rings.into_values().collect()
+}
+
+/// The rings of [`with_trunk`] and of what it becomes at two heads, and how much thicker its trunk becomes.
+fn rings_and_barrel(moved: impl Fn(DVec3, f64) -> DVec3) -> (Vec<[f64; 3]>, Vec<[f64; 3]>, f64) {
+    let (character, heights) = with_trunk(moved);
+    let before = rings(&rest_positions(&character), &heights);
+    let mut deformer = Deformer::new(Arc::new(character), &Style::Heads(2.0), &Options::default()).unwrap();
+    let thicker = deformer.coefficients()["torso"].thickness_scale;
+    (before, rings(&positions(&deformer.apply()), &heights), thicker)
+}
+
+#[test]
+fn a_trunk_that_curves_becomes_a_straight_barrel() {
+    // A wave and a half from crotch to shoulder line, as a back has: of a trunk of two heads smoothing leaves nothing of that, and
+    // neither may what the parts do.
+    let wave = |p: DVec3, t: f64| p + DVec3::Z * 0.02 * (3.0 * std::f64::consts::PI * t).sin();
+    let (before, after, thicker) = rings_and_barrel(wave);
+    let off_line = |rings: &[[f64; 3]]| {
+        let middles: Vec<(f64, f64)> =
+            rings.iter().map(|[y, back, front]| (*y, (back + front) / 2.0)).collect();
+        let ((low, first), (high, last)) = (middles[0], middles[middles.len() - 1]);
+        let off = |&(y, z): &(f64, f64)| (z - first - (last - first) * (y - low) / (high - low)).abs();
+        middles.iter().map(off).fold(0.0, f64::max)
+    };
+    let (before, after) = (off_line(&before), off_line(&after));
+    assert!(before > 0.03 && thicker > 1.3, "{before} off the line, {thicker} times as thick");
+    assert!(after < 0.015 * thicker * before, "{before} before, {after} after, {thicker} times as thick");
+}
+
+#[test]
+fn folds_of_a_trunk_go_with_its_length() {
+    // Ten folds of a fortieth of the trunk's depth, which across would grow as the trunk does while they lie five times as close.
+    let fold = |p: DVec3, t: f64| {
+        p * (DVec3::ONE + DVec3::new(1.0, 0.0, 1.0) * 0.025 * (20.0 * std::f64::consts::PI * t).sin())
+    };
+    let ((_, plain, thicker), (before, after, _)) = (rings_and_barrel(|p, _| p), rings_and_barrel(fold));
+    let depth = |[_, back, front]: &[f64; 3]| front - back;
+    let fold = 0.025 * depth(&before[before.len() / 2]);
+    let left = plain
+        .iter()
+        .zip(&after)
+        .map(|(plain, after)| (depth(plain) - depth(after)).abs())
+        .fold(0.0, f64::max);
+    assert!(left < 0.25 * thicker * fold, "{fold} before, {left} after, {thicker} times as thick");
 }
 
 /// How steeply the left hand's vertices lie away from the line of its arm, from the wrist on, by least squares.

@@ -64,7 +64,7 @@ impl Measured {
         progress: &mut Progress,
     ) -> Result<Self> {
         let threads = if figure.triangles.len() < parallel::FEW { 1 } else { options.thread_count };
-        let (surfaces, anatomy) = if parallel::thread_count(threads) == 1 {
+        let (surfaces, mut anatomy) = if parallel::thread_count(threads) == 1 {
             let surfaces = surfaces(&figure);
             progress.at(0.2)?;
             (surfaces, Anatomy::of(&figure))
@@ -96,11 +96,11 @@ impl Measured {
         };
         let ((shape, face), made) = parallel::both(threads, radii_and_face, || weld_and_profile(progress));
         let (weld, chains, (profile, lines)) = made?;
+        anatomy.centre_line.clone_from(&lines.centre_line);
         let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());
-        shape.face = face.as_ref().and_then(FaceStyle::of);
-        shape.profile = Some(profile);
+        (shape.face, shape.profile) = (face.as_ref().and_then(FaceStyle::of), Some(profile));
         progress.at(1.0)?;
         Ok(Self { figure, anatomy, face, joints, head_top, weld, chains, lines, shape })
     }

@@ -35,9 +35,7 @@ const TORSO_SLICES: u32 = 5;
 const TORSO_SLICE_STEP: f64 = 0.15;
 /// Outlines count between these quantiles, so that a strap or a pouch is no width (D27). Seen: at 0.68 above, vertices
 /// move by up to 0.03 H; a third more or less below, by 0.003 H.
-const WIDTH_QUANTILES: (f64, f64) = (0.03, 0.97);
-/// The same from back to front, for the centre line. Seen: to 0.63 only, 60 triangles more of 14 models turn over.
-const DEPTH_QUANTILES: (f64, f64) = (0.1, 0.9);
+const QUANTILES: (f64, f64) = (0.03, 0.97);
 /// An edge of an outline counts as so many points. Seen: with 3 or 5, vertices move by up to 0.009 H.
 const EDGE_POINTS: u32 = 4;
 /// Joints nearer to each other than this share of H lie on one another, and finger tips are as far as each other. Seen: 30 %
@@ -67,11 +65,6 @@ const FOOT_ASIDE: f64 = 0.35;
 /// A limb's radius is measured between these shares of its bone: joints bulge (D27). Seen: from 0 on, or to 0.56 only,
 /// vertices move by up to 0.04 H.
 const RADIUS_RANGE: (f64, f64) = (0.2, 0.8);
-/// Slices of the torso's centre line. Seen: 9 or 17 move vertices by up to 0.01 H.
-const CENTRE_SLICES: usize = 13;
-/// Each point of the centre line is a mean over so many to either side (D28: the smoothed centre line).
-const CENTRE_SMOOTHED: usize = 2;
-
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limb {
@@ -146,7 +139,7 @@ pub struct Anatomy {
     pub limbs: [Limb; 4],
     /// The plane that halves the body: x of the middle between the limbs' roots.
     pub middle_x: f64,
-    /// The torso's centre line: (height, z), rising, smoothed; at least one point.
+    /// The torso's centre line: (height, z), rising, smoothed; the hips alone until its slices are measured.
     pub centre_line: Vec<(f64, f64)>,
     /// Middle of the bare head's bounding box.
     pub head_centre: DVec3,
@@ -183,7 +176,7 @@ impl Anatomy {
                     && figure.extra_weight[vertex] < 0.5
                     && !figure.is_carried(vertex)
             });
-            let measurable = slice(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line));
+            let measurable = half_width(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line));
             if measurable.is_some() { bare } else { own(Part::Torso as usize) }
         };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
@@ -195,16 +188,14 @@ impl Anatomy {
             .map_or(DVec3::new(middle_x, heights.crown, head_joint.z), |(centre, _)| centre);
 
         let length = heights.head_length();
-        let head_half_width = slice(figure, &head, heights.chin + HEAD_WIDTH_AT * length)
-            .map(|slice| slice.half_width)
+        let head_half_width = half_width(figure, &head, heights.chin + HEAD_WIDTH_AT * length)
             .filter(|&half| half > LEAST * length)
             .unwrap_or(HEAD_WIDTH_BY_RATIO * length);
         let head_half_depth = head_half_depth(figure, &head, heights.chin + HEAD_DEPTH_AT * length)
             .filter(|half| (LEAST..MOST_HEAD_DEPTH).contains(&(half / length)));
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
         let widths = (1..=TORSO_SLICES).filter_map(|step| {
-            let y = bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom);
-            slice(figure, &torso, y).map(|slice| slice.half_width)
+            half_width(figure, &torso, bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom))
         });
         let radius = |segment: usize, limbs: &[Limb]| {
             mean(limbs.iter().filter_map(|limb| {
@@ -247,7 +238,8 @@ impl Anatomy {
             upper_leg_radius: radius(0, legs),
             lower_leg_radius: radius(1, legs),
         };
-        let centre_line = centre_line(figure, &torso, heights);
+        let hips = figure.role_position(Role::Hips).unwrap_or_default();
+        let centre_line = vec![(hips.y, hips.z)];
         Self { landmarks, limbs, middle_x, centre_line, head_centre, head_joint, proportions }
     }
 
@@ -343,12 +335,6 @@ fn leg(figure: &Figure, heights: Heights, left: bool) -> Limb {
     Limb { parts, root, middle: knee, end: ankle, end_is_joint: end.is_some() }
 }
 
-/// A horizontal cut through a set of triangles.
-struct Slice {
-    half_width: f64,
-    middle_z: f64,
-}
-
 /// Half the depth of the head at height `y`: of its skin (`bare`), and where that ends under the hair, of both.
 fn head_half_depth(figure: &Figure, bare: &[[u32; 3]], y: f64) -> Option<f64> {
     let is_head = |vertex: usize| {
@@ -357,16 +343,14 @@ fn head_half_depth(figure: &Figure, bare: &[[u32; 3]], y: f64) -> Option<f64> {
     let whole = outline(figure, &figure.triangles_where(is_head), y)?;
     let middle = whole.middle();
     let mut outline = outline(figure, bare, y).filter(|bare| bare.surrounds(middle)).unwrap_or(whole);
-    let (back, front) = outline.between(|p| p.z, WIDTH_QUANTILES);
+    let (back, front) = outline.between(|p| p.z);
     outline.surrounds(middle).then_some((front - back) / 2.0)
 }
 
-/// Cuts `triangles` at height `y`; extents are quantiles of the outline by its length.
-fn slice(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Slice> {
-    let mut outline = outline(figure, triangles, y)?;
-    let (left, right) = outline.between(|p| p.x, WIDTH_QUANTILES);
-    let (back, front) = outline.between(|p| p.z, DEPTH_QUANTILES);
-    Some(Slice { half_width: (right - left) / 2.0, middle_z: (back + front) / 2.0 })
+/// Half the width of `triangles` at height `y`.
+fn half_width(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<f64> {
+    let (left, right) = outline(figure, triangles, y)?.between(|p| p.x);
+    Some((right - left) / 2.0)
 }
 
 /// The line in which a plane cuts a surface: points, and how much of its length each stands for.
@@ -393,11 +377,11 @@ impl Outline {
         is_seen.iter().all(|&is_seen| is_seen)
     }
 
-    /// Where these shares of its length are passed along an axis.
+    /// Where it begins and ends along an axis, but for what [`QUANTILES`] leave out of its length.
     ///
     /// Interpolated between the points: else the order of the triangles, which changes the last digits of the sums, could
     /// move a quantile to the next point.
-    fn between(&mut self, axis: fn(&DVec3) -> f64, (low, high): (f64, f64)) -> (f64, f64) {
+    fn between(&mut self, axis: fn(&DVec3) -> f64) -> (f64, f64) {
         self.points.sort_by(|a, b| axis(&a.0).total_cmp(&axis(&b.0)));
         let mut sum = 0.0;
         let passed = |(p, length): &(DVec3, f64)| {
@@ -411,7 +395,7 @@ impl Outline {
             let [(before, from), (after, to)] = beside(&line, wanted);
             from + (to - from) * (wanted - before) / (after - before).max(TINY)
         };
-        (at(low), at(high))
+        (at(QUANTILES.0), at(QUANTILES.1))
     }
 }
 
@@ -449,26 +433,4 @@ fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -
         }
     }
     (area_sum > 0.0).then(|| sum / area_sum).filter(|&radius| radius > 0.0)
-}
-
-/// The torso's centre line from the crotch to the shoulder line, smoothed.
-fn centre_line(figure: &Figure, torso: &[[u32; 3]], heights: Heights) -> Vec<(f64, f64)> {
-    let (bottom, top) = (heights.crotch, heights.shoulder_line);
-    let raw: Vec<(f64, f64)> = (0..CENTRE_SLICES)
-        .filter_map(|index| {
-            let y = bottom + (top - bottom) * index as f64 / (CENTRE_SLICES - 1) as f64;
-            slice(figure, torso, y).map(|slice| (y, slice.middle_z))
-        })
-        .collect();
-    if raw.len() < 2 {
-        let hips = figure.role_position(Role::Hips).unwrap_or_default();
-        return vec![((bottom + top) / 2.0, raw.first().map_or(hips.z, |point| point.1))];
-    }
-    (0..raw.len())
-        .map(|index| {
-            let near =
-                &raw[index.saturating_sub(CENTRE_SMOOTHED)..(index + CENTRE_SMOOTHED + 1).min(raw.len())];
-            (raw[index].0, near.iter().map(|point| point.1).sum::<f64>() / near.len() as f64)
-        })
-        .collect()
 }

@@ -34,6 +34,8 @@ pub struct Slices {
     pub relief: Relief,
     /// Then, before each part.
     pub map: BodyMap,
+    /// What relief leaves of the torso's centre line.
+    pub centre_line: Vec<(f64, f64)>,
     /// How much longer and thicker parts become by these maps and their own together, in the mean of their slices.
     pub coefficients: PartCoefficients,
     /// Of what soft limits took more than a tenth, the scale that was wanted and the one that it got.
@@ -77,6 +79,8 @@ impl Chart {
             let share = mitt(std::array::from_fn(|axis| wanted[axis] / hand[axis]));
             *hand = std::array::from_fn(|axis| hand[axis] * (closed[axis] / hand[axis]).powf(share));
         }
+        // The torso's own curve goes with its relief: parts that flattened it would put it back.
+        let grows = Grows { parts: &parts.about(&lines.centre_line), ..grows };
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);
@@ -84,6 +88,7 @@ impl Chart {
             coefficients: self.coefficients(parts.coefficients(), &scales),
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
+            centre_line: lines.centre_line,
             limited: scales.limited,
         }
     }
@@ -217,6 +222,7 @@ impl Chart {
         for (now, own) in lines.arm_middles.iter_mut().flatten().flatten().zip(own_middles) {
             even_places(now, own, length);
         }
+        lines.centre_line = frame.centre_line(now.torso.as_ref());
         (now, lines)
     }
 }

@@ -124,6 +124,15 @@ impl BodyFrame {
         Planes { origin, axis: DVec3::Y, across: DVec3::X, front: DVec3::Z }
     }
 
+    /// The line through the middles of a torso's slices: (height, z), rising; without them the hips alone.
+    pub(super) fn centre_line(&self, torso: Option<&TorsoProfile>) -> Vec<(f64, f64)> {
+        let Some(torso) = torso else { return vec![(self.hips.y, self.hips.z)] };
+        let point = |(t, forward)| {
+            (self.heights.crotch + t * self.torso_length(), self.hips.z + self.head_length() * forward)
+        };
+        stations(TORSO_STATIONS).into_iter().zip(torso.forward).map(point).collect()
+    }
+
     /// The planes of both legs, from the crotch (0) down.
     pub fn leg_planes(&self) -> Planes {
         Planes { axis: DVec3::NEG_Y, ..self.torso_planes() }
@@ -183,6 +192,8 @@ impl BodyFrame {
 /// What a map needs of its own figure beside the profile: the middles of its arms' slices and hands, in each arm's planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyLines {
+    /// The torso's: (height, z), rising; at least one point.
+    pub centre_line: Vec<(f64, f64)>,
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
     /// The same of hands, at the same parts of their own lengths, in the arms' planes.
@@ -233,7 +244,9 @@ pub fn measure_profile(
             / (2.0 * length),
         arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
-    (profile.sound(), BodyLines { arm_middles, hand_middles, closed_hand })
+    let profile = profile.sound();
+    let centre_line = frame.centre_line(profile.torso.as_ref());
+    (profile, BodyLines { centre_line, arm_middles, hand_middles, closed_hand })
 }
 
 /// A body to be measured, as it is now.
