@@ -246,7 +246,7 @@ fn rings(positions: &[DVec3], heights: &[f64]) -> Vec<[f64; 3]> {
 fn rings_and_barrel(moved: impl Fn(DVec3, f64) -> DVec3) -> (Vec<[f64; 3]>, Vec<[f64; 3]>, f64) {
     let (character, heights) = with_trunk(moved);
     let before = rings(&rest_positions(&character), &heights);
-    let mut deformer = Deformer::new(Arc::new(character), &Style::Heads(2.0), &Options::default()).unwrap();
+    let deformer = Deformer::new(Arc::new(character), &Style::Heads(2.0), &Options::default()).unwrap();
     let thicker = deformer.coefficients()["torso"].thickness_scale;
     (before, rings(&positions(&deformer.apply()), &heights), thicker)
 }
