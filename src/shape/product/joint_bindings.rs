@@ -54,19 +54,17 @@ pub fn mean_bindings(
             }
         }
     }
-    let on_head = |joint: usize| figure.joint_roles[joint].is_none_or(|role| role == Role::Head);
     let mut found: Vec<Option<PartBinding>> = vec![None; means.len()];
-    let is_loose = |joint: &usize| !own_role[*joint] && !on_head(*joint);
+    let is_loose =
+        |&joint: &usize| !own_role[joint] && figure.joint_roles[joint].is_some_and(|role| role != Role::Head);
     for joint in character.skeleton.parents_first().into_iter().filter(is_loose) {
-        let parent = character.skeleton.joints[joint].parent;
-        found[joint] = means[joint].binding().or_else(|| found[parent?]);
+        found[joint] = means[joint].binding().or_else(|| found[character.skeleton.joints[joint].parent?]);
     }
     found
 }
 
-/// The binding of a joint that stands on the bones of an arm: of those that play a role there, and of twist bones between them.
-/// They follow the bones, so that the arm keeps its angles and a twist bone its share of the way.
-pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
+/// The role whose bone, of an arm or a leg, a joint stands on: its own, or that of a twist bone on the way to the next.
+pub fn on_limb(figure: &Figure, joint: usize) -> Option<Role> {
     use Role::*;
     let role = figure.joint_roles[joint]?;
     let next = match role {
@@ -74,15 +72,26 @@ pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
         RightUpperArm => RightLowerArm,
         LeftLowerArm | LeftHand => LeftHand,
         RightLowerArm | RightHand => RightHand,
+        LeftUpperLeg => LeftLowerLeg,
+        RightUpperLeg => RightLowerLeg,
+        LeftLowerLeg | LeftFoot => LeftFoot,
+        RightLowerLeg | RightFoot => RightFoot,
         _ => return None,
     };
-    let own = figure.humanoid.joint(role);
-    let is_on_bone = own == Some(joint) || {
+    let is_on_bone = figure.humanoid.joint(role) == Some(joint) || {
         let (p, from, to) = (figure.joints[joint], figure.role_position(role)?, figure.role_position(next)?);
         let (nearest, t) = foot(p, from, to);
         (0.0..=1.0).contains(&t) && p.distance(nearest) < NEAR * figure.height()
     };
-    is_on_bone.then(|| PartBinding { attachment: Attachment::OnBone, ..PartBinding::to(Part::of(role)) })
+    is_on_bone.then_some(role)
+}
+
+/// The binding of a joint that stands on the bones of an arm: it follows these, so that the arm keeps its angles and a twist bone
+/// its share of the way.
+pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
+    let part = Part::of(on_limb(figure, joint)?);
+    (part < Part::LeftUpperLeg)
+        .then(|| PartBinding { attachment: Attachment::OnBone, ..PartBinding::to(part) })
 }
 
 /// A weighted mean in the making.

@@ -98,8 +98,7 @@ impl PartField {
 
     /// The same field after `slices`, which takes `pieces` along.
     pub fn with(&self, slices: Option<Slices>, pieces: &[Piece]) -> Self {
-        let own = &self.anatomy.centre_line;
-        let mut field = self.about(slices.as_ref().map_or(own, |slices| &slices.centre_line));
+        let mut field = self.about(slices.as_ref().map_or(&self.anatomy.centre_line, |it| &it.centre_line));
         field.slices = slices;
         field.place_limbs();
         field.pieces = pieces.iter().map(|piece| field.piece_map(piece)).collect();
