@@ -2,7 +2,6 @@
 
 use crate::geometry::whole::floor;
 use crate::shape::product::part::TINY;
-use std::ops::Range;
 
 /// The monotone cubic through `knots` at `places`, which rise, at `x`; constant beyond the ends.
 ///
@@ -62,36 +61,37 @@ pub fn bell(away: f64) -> f64 {
     near * near * near
 }
 
-/// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
-/// way as is its own. Only those of the rows `kept`.
-pub fn smoothed<const N: usize>(
-    rows: &[[f64; N]],
-    places: &[f64],
-    sigma: f64,
-    kept: Range<usize>,
-) -> Vec<[f64; N]> {
-    let last = rows.len() - 1;
-    let own = |row: usize| {
+/// What counts of rows at `places`, which rise, for each of them by a [`bell`] `sigma` wide, where each counts for as much of the way
+/// as is its own: the first row and the weights from there on.
+pub fn neighbours(places: &[f64], sigma: f64) -> impl Iterator<Item = (usize, Vec<f64>)> {
+    let last = places.len() - 1;
+    let own = move |row: usize| {
         let (before, after) = (row.saturating_sub(1), (row + 1).min(last));
         // An end counts for as much to both sides.
         ((places[after] - places[before]) / (after - before).max(1) as f64).max(TINY)
     };
-    let ways: Vec<f64> = (0..rows.len()).map(own).collect();
+    let ways: Vec<f64> = (0..=last).map(own).collect();
     let mut first = 0;
-    let mean = |row: usize| {
-        let here = places[row];
+    places.iter().map(move |&here| {
         while places[first] < here - BELL_ENDS * sigma {
             first += 1;
         }
+        let near = (first..=last).take_while(|&near| places[near] <= here + BELL_ENDS * sigma);
+        (first, near.map(|near| ways[near] * bell((places[near] - here) / sigma)).collect())
+    })
+}
+
+/// Weighted means along `rows` at `places`: see [`neighbours`].
+pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
+    let mean = |(first, weights): (usize, Vec<f64>)| {
         let (mut sum, mut total) = ([0.0; N], 0.0);
-        for near in (first..rows.len()).take_while(|&near| places[near] <= here + BELL_ENDS * sigma) {
-            let weight = ways[near] * bell((places[near] - here) / sigma);
-            sum.iter_mut().zip(&rows[near]).for_each(|(sum, value)| *sum += weight * value);
+        for (weight, row) in weights.iter().zip(&rows[first..]) {
+            sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
             total += weight;
         }
         sum.map(|sum| sum / total)
     };
-    kept.map(mean).collect()
+    neighbours(places, sigma).map(mean).collect()
 }
 
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
@@ -114,7 +114,7 @@ impl<const N: usize> Table<N> {
     pub fn smoothed(&self, sigma: f64, place: impl Fn(f64) -> f64) -> Self {
         let places: Vec<f64> =
             (0..self.rows.len()).map(|row| place(self.start + self.step * row as f64)).collect();
-        Self { rows: smoothed(&self.rows, &places, sigma, 0..places.len()), ..*self }
+        Self { rows: smoothed(&self.rows, &places, sigma), ..*self }
     }
 
     /// The functions around `x`.
