@@ -242,13 +242,12 @@ fn rings(positions: &[DVec3], heights: &[f64]) -> Vec<[f64; 3]> {
     rings.into_values().collect()
 }
 
-/// The rings of [`with_trunk`] and of what it becomes at two heads, and how much thicker its trunk becomes.
-fn rings_and_barrel(moved: impl Fn(DVec3, f64) -> DVec3) -> (Vec<[f64; 3]>, Vec<[f64; 3]>, f64) {
+/// The rings of [`with_trunk`], and of what it becomes at two heads.
+fn rings_and_barrel(moved: impl Fn(DVec3, f64) -> DVec3) -> [Vec<[f64; 3]>; 2] {
     let (character, heights) = with_trunk(moved);
     let before = rings(&rest_positions(&character), &heights);
     let deformer = Deformer::new(Arc::new(character), &Style::Heads(2.0), &Options::default()).unwrap();
-    let thicker = deformer.coefficients()["torso"].thickness_scale;
-    (before, rings(&positions(&deformer.apply()), &heights), thicker)
+    [before, rings(&positions(&deformer.apply()), &heights)]
 }
 
 #[test]
@@ -256,7 +255,7 @@ fn a_trunk_that_curves_becomes_a_straight_barrel() {
     // A wave and a half from crotch to shoulder line, as a back has: of a trunk of two heads smoothing leaves nothing of that, and
     // neither may what the parts do.
     let wave = |p: DVec3, t: f64| p + DVec3::Z * 0.02 * (3.0 * std::f64::consts::PI * t).sin();
-    let (before, after, thicker) = rings_and_barrel(wave);
+    let [before, after] = rings_and_barrel(wave);
     let off_line = |rings: &[[f64; 3]]| {
         let middles: Vec<(f64, f64)> =
             rings.iter().map(|[y, back, front]| (*y, (back + front) / 2.0)).collect();
@@ -265,8 +264,8 @@ fn a_trunk_that_curves_becomes_a_straight_barrel() {
         middles.iter().map(off).fold(0.0, f64::max)
     };
     let (before, after) = (off_line(&before), off_line(&after));
-    assert!(before > 0.03 && thicker > 1.3, "{before} off the line, {thicker} times as thick");
-    assert!(after < 0.015 * thicker * before, "{before} before, {after} after, {thicker} times as thick");
+    assert!(before > 0.03, "the trunk is straight: {before}");
+    assert!(after < 0.025 * before, "{before} before, {after} after");
 }
 
 #[test]
@@ -275,7 +274,7 @@ fn folds_of_a_trunk_go_with_its_length() {
     let fold = |p: DVec3, t: f64| {
         p * (DVec3::ONE + DVec3::new(1.0, 0.0, 1.0) * 0.025 * (20.0 * std::f64::consts::PI * t).sin())
     };
-    let ((_, plain, thicker), (before, after, _)) = (rings_and_barrel(|p, _| p), rings_and_barrel(fold));
+    let ([_, plain], [before, after]) = (rings_and_barrel(|p, _| p), rings_and_barrel(fold));
     let depth = |[_, back, front]: &[f64; 3]| front - back;
     let fold = 0.025 * depth(&before[before.len() / 2]);
     let left = plain
@@ -283,7 +282,7 @@ fn folds_of_a_trunk_go_with_its_length() {
         .zip(&after)
         .map(|(plain, after)| (depth(plain) - depth(after)).abs())
         .fold(0.0, f64::max);
-    assert!(left < 0.25 * thicker * fold, "{fold} before, {left} after, {thicker} times as thick");
+    assert!(left < 0.3 * fold, "{fold} before, {left} after");
 }
 
 /// How steeply the left hand's vertices lie away from the line of its arm, from the wrist on, by least squares.

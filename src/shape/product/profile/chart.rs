@@ -3,7 +3,7 @@
 
 use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
-use super::slice_scales::{Scales, SliceScales, Strengths, mitt, scales};
+use super::slice_scales::{Scales, Strengths, mitt, scales};
 use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
@@ -62,10 +62,11 @@ impl Chart {
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
         let frame = &self.frame;
         let grows = Grows::of(parts, frame);
-        let of_chains = [strengths.torso, mean(strengths.leg.into_iter()), mean(strengths.arm.into_iter())];
         let thicker = self.thicker(wanted);
+        let strength = [[strengths.torso; STATIONS], strengths.leg, strengths.arm];
         let strength = std::array::from_fn(|chain| {
-            of_chains[chain] * smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM)
+            let stubbier = smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM);
+            strength[chain].map(|strength| strength * stubbier)
         });
         let torso_place = |y: f64| parts.body_height(y) / parts.after().head_length();
         let place = |chain: usize, height: f64| match chain {
@@ -85,7 +86,7 @@ impl Chart {
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);
         Slices {
-            coefficients: self.coefficients(parts.coefficients(), &scales),
+            coefficients: self.coefficients(parts.coefficients(), &scales, &smooth),
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
             centre_line: lines.centre_line,
@@ -102,12 +103,17 @@ impl Chart {
         })
     }
 
-    /// `parts` times what `scales` make of each part, in the mean of its slices.
-    fn coefficients(&self, parts: &PartCoefficients, scales: &Scales) -> PartCoefficients {
+    /// `parts` times what relief, which leaves `smooth`, and `scales` make of each part, in the mean of its slices.
+    fn coefficients(&self, parts: &PartCoefficients, scales: &Scales, smooth: &Profile) -> PartCoefficients {
         let frame = &self.frame;
+        let reliefs = self.own.both_extents(smooth);
         // Of the slices whose number in `row` is `of`.
-        let thicker = |chain: &SliceScales, row: &Row, of: f64| {
-            let log = |at: usize| 0.5 * (chain.breadth[at] * chain.depth[at]).ln();
+        let thicker = |number: usize, row: &Row, of: f64| {
+            let chain = [&scales.torso, &scales.leg, &scales.arm][number];
+            let relief = |at| {
+                reliefs[number].map_or(1.0, |(own, now)| now[0][at] * now[1][at] / (own[0][at] * own[1][at]))
+            };
+            let log = |at: usize| 0.5 * (chain.breadth[at] * chain.depth[at] * relief(at)).ln();
             mean((0..STATIONS).filter(|&at| row[at] == of).map(log)).exp()
         };
         let (legs, arms) = (frame.leg_row([0.0, 1.0]), frame.arm_row([0.0, 1.0]));
@@ -120,12 +126,12 @@ impl Chart {
         let spread = scales.spread * frame.head_length();
         PartCoefficients {
             neck: times(parts.neck, 1.0, scales.neck),
-            torso: times(parts.torso, 1.0, thicker(&scales.torso, &[0.0; STATIONS], 0.0)),
+            torso: times(parts.torso, 1.0, thicker(0, &[0.0; STATIONS], 0.0)),
             hip_spread: parts.hip_spread * if hips > 0.0 { (hips + spread) / hips } else { 1.0 },
-            upper_arm: times(parts.upper_arm, scales.arm_length, thicker(&scales.arm, &arms, 0.0)),
-            lower_arm: times(parts.lower_arm, scales.arm_length, thicker(&scales.arm, &arms, 1.0)),
-            upper_leg: times(parts.upper_leg, 1.0, thicker(&scales.leg, &legs, 0.0)),
-            lower_leg: times(parts.lower_leg, 1.0, thicker(&scales.leg, &legs, 1.0)),
+            upper_arm: times(parts.upper_arm, scales.arm_length, thicker(2, &arms, 0.0)),
+            lower_arm: times(parts.lower_arm, scales.arm_length, thicker(2, &arms, 1.0)),
+            upper_leg: times(parts.upper_leg, 1.0, thicker(1, &legs, 0.0)),
+            lower_leg: times(parts.lower_leg, 1.0, thicker(1, &legs, 1.0)),
             hand: parts.hand * size(scales.hand),
             foot: parts.foot * size(scales.foot),
             ..*parts

@@ -52,7 +52,7 @@ pub fn monotone_cubic(places: &[f64], knots: &[f64], x: f64) -> f64 {
 }
 
 /// Where [`bell`] ends, in widths.
-pub const BELL_ENDS: f64 = 3.0;
+const BELL_ENDS: f64 = 3.0;
 
 /// The weight of what lies `away` from the middle, in widths: the triweight, which ends three of its standard deviations away. Rows
 /// lie by parts of these widths, so one lies there to the last digit: with a step it would count or not.
@@ -61,37 +61,31 @@ pub fn bell(away: f64) -> f64 {
     near * near * near
 }
 
-/// What counts of rows at `places`, which rise, for each of them by a [`bell`] `sigma` wide, where each counts for as much of the way
-/// as is its own: the first row and the weights from there on.
-pub fn neighbours(places: &[f64], sigma: f64) -> impl Iterator<Item = (usize, Vec<f64>)> {
-    let last = places.len() - 1;
-    let own = move |row: usize| {
+/// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
+/// way as is its own.
+pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
+    let last = rows.len() - 1;
+    let own = |row: usize| {
         let (before, after) = (row.saturating_sub(1), (row + 1).min(last));
         // An end counts for as much to both sides.
         ((places[after] - places[before]) / (after - before).max(1) as f64).max(TINY)
     };
-    let ways: Vec<f64> = (0..=last).map(own).collect();
+    let ways: Vec<f64> = (0..rows.len()).map(own).collect();
     let mut first = 0;
-    places.iter().map(move |&here| {
+    let mean = |row: usize| {
+        let here = places[row];
         while places[first] < here - BELL_ENDS * sigma {
             first += 1;
         }
-        let near = (first..=last).take_while(|&near| places[near] <= here + BELL_ENDS * sigma);
-        (first, near.map(|near| ways[near] * bell((places[near] - here) / sigma)).collect())
-    })
-}
-
-/// Weighted means along `rows` at `places`: see [`neighbours`].
-pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
-    let mean = |(first, weights): (usize, Vec<f64>)| {
         let (mut sum, mut total) = ([0.0; N], 0.0);
-        for (weight, row) in weights.iter().zip(&rows[first..]) {
-            sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
+        for near in (first..rows.len()).take_while(|&near| places[near] <= here + BELL_ENDS * sigma) {
+            let weight = ways[near] * bell((places[near] - here) / sigma);
+            sum.iter_mut().zip(&rows[near]).for_each(|(sum, value)| *sum += weight * value);
             total += weight;
         }
         sum.map(|sum| sum / total)
     };
-    neighbours(places, sigma).map(mean).collect()
+    (0..rows.len()).map(mean).collect()
 }
 
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant
