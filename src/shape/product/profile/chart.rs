@@ -62,9 +62,9 @@ impl Chart {
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
         let frame = &self.frame;
         let grows = Grows::of(parts, frame);
-        let thicker = self.thicker(wanted);
+        let thicker = self.thicker(wanted).map(|row| mean(row.into_iter().map(f64::ln)).exp());
         let strength = [[strengths.torso; STATIONS], strengths.leg, strengths.arm];
-        let strength = std::array::from_fn(|chain| {
+        let strength: [Row; 3] = std::array::from_fn(|chain| {
             let stubbier = smoothstep((1.0 - grows.lengths[chain] / thicker[chain]) / SMOOTH_FROM);
             strength[chain].map(|strength| strength * stubbier)
         });
@@ -85,8 +85,13 @@ impl Chart {
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);
+        // Where none is asked for, what spreads there from beside does not count.
+        let mut relieved = self.thicker(&smooth);
+        for (thicker, strength) in relieved.iter_mut().flatten().zip(strength.iter().flatten()) {
+            *thicker = if *strength > 0.0 { *thicker } else { 1.0 };
+        }
         Slices {
-            coefficients: self.coefficients(parts.coefficients(), &scales, &smooth),
+            coefficients: self.coefficients(parts.coefficients(), &scales, &relieved),
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
             centre_line: lines.centre_line,
@@ -94,26 +99,22 @@ impl Chart {
         }
     }
 
-    /// How much thicker, in heads, `wanted` is than torso, legs and arms are.
-    fn thicker(&self, wanted: &Profile) -> [f64; 3] {
-        self.own.both_extents(wanted).map(|both| {
-            let Some((own, wanted)) = both else { return 1.0 };
-            let log = |at: usize| 0.5 * (wanted[0][at] * wanted[1][at] / (own[0][at] * own[1][at])).ln();
-            mean((0..STATIONS).map(log)).exp()
+    /// How much thicker the slices of torso, legs and arms are in the profile `other`, in its heads.
+    fn thicker(&self, other: &Profile) -> [Row; 3] {
+        self.own.both_extents(other).map(|both| {
+            let Some((own, other)) = both else { return [1.0; STATIONS] };
+            std::array::from_fn(|at| (other[0][at] * other[1][at] / (own[0][at] * own[1][at])).sqrt())
         })
     }
 
-    /// `parts` times what relief, which leaves `smooth`, and `scales` make of each part, in the mean of its slices.
-    fn coefficients(&self, parts: &PartCoefficients, scales: &Scales, smooth: &Profile) -> PartCoefficients {
+    /// `parts` times what `scales`, and relief, which makes slices of torso, legs and arms so much thicker, make of each part, in
+    /// the mean of its slices.
+    fn coefficients(&self, parts: &PartCoefficients, scales: &Scales, relief: &[Row; 3]) -> PartCoefficients {
         let frame = &self.frame;
-        let reliefs = self.own.both_extents(smooth);
         // Of the slices whose number in `row` is `of`.
         let thicker = |number: usize, row: &Row, of: f64| {
             let chain = [&scales.torso, &scales.leg, &scales.arm][number];
-            let relief = |at| {
-                reliefs[number].map_or(1.0, |(own, now)| now[0][at] * now[1][at] / (own[0][at] * own[1][at]))
-            };
-            let log = |at: usize| 0.5 * (chain.breadth[at] * chain.depth[at] * relief(at)).ln();
+            let log = |at: usize| (chain.breadth[at] * chain.depth[at]).sqrt().ln() + relief[number][at].ln();
             mean((0..STATIONS).filter(|&at| row[at] == of).map(log)).exp()
         };
         let (legs, arms) = (frame.leg_row([0.0, 1.0]), frame.arm_row([0.0, 1.0]));

@@ -189,14 +189,14 @@ impl BodyFrame {
     }
 }
 
-/// What a map needs of its own figure beside the profile: the middles of its arms' slices and hands, in each arm's planes.
+/// What a map needs of its own figure beside the profile: lines through the middles of its slices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyLines {
     /// The torso's: (height, z), rising; at least one point.
     pub centre_line: Vec<(f64, f64)>,
-    /// Left, right; smoothed, model units.
+    /// The arms', left, right, in each arm's planes; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// The same of hands, at the same parts of their own lengths, in the arms' planes.
+    /// The same of hands, at the same parts of their own lengths.
     pub hand_middles: [Option<[Row; 2]>; 2],
     /// Length, half breadth and half thickness of hands whose thumbs are closed as a mitt's, in head lengths.
     pub closed_hand: Option<[f64; 3]>,

@@ -261,9 +261,9 @@ fn scaled(
     };
     let raw: Vec<Ring> = map.reaches.iter().zip(smooth).zip(strength).map(scale).collect();
     let even = smoothed(&raw, places, SCALE_SIGMA);
-    let scale = |even: f64, raw: f64| even + (raw - even) / (1.0 + ((raw - even) / FOLD).powi(2));
+    let without_folds = |even: f64, raw: f64| even + (raw - even) / (1.0 + ((raw - even) / FOLD).powi(2));
     let around = |(even, raw): (&Ring, &Ring)| -> Ring {
-        let ring: Ring = std::array::from_fn(|ray| scale(even[ray], raw[ray]));
+        let ring: Ring = std::array::from_fn(|ray| without_folds(even[ray], raw[ray]));
         std::array::from_fn(|ray| {
             0.25 * ring[(ray + RAYS - 1) % RAYS] + 0.5 * ring[ray] + 0.25 * ring[(ray + 1) % RAYS]
         })
