@@ -59,8 +59,9 @@ impl<'a> Outside<'a> {
             return None;
         }
         let normal = self.outwards * blend.normalize_or_zero();
-        let sign = if (p - closest.point).dot(normal) < 0.0 { -1.0 } else { 1.0 };
-        Some((closest, sign * closest.distance, normal))
+        // Along the way out: where that is no way to the closest point, as in a crease, last digits tell the side.
+        let distance = (p - closest.point).dot(normal);
+        Some((closest, distance, normal))
     }
 }
 
