@@ -200,7 +200,7 @@ impl<'a> Membrane<'a> {
             if distance >= kept || distance < -furthest {
                 return None;
             }
-            let faced = (at - closest.point).dot(way).abs() / distance.abs().max(f64::MIN_POSITIVE);
+            let faced = distance.abs() / closest.distance.max(f64::MIN_POSITIVE);
             let share = facing.map_or(1.0, |least| smoothstep((faced - least) / (1.0 - least)));
             let least = displaced.dot(way) + share * (kept - distance);
             (least <= furthest).then_some(Push { way, least })

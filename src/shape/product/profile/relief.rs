@@ -260,16 +260,15 @@ fn scaled(
         std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
     };
     let raw: Vec<Ring> = map.reaches.iter().zip(smooth).zip(strength).map(scale).collect();
-    // One row is no fold: where a hem lies on it, last digits tell whether it is met.
-    let [even, fine] = [SCALE_SIGMA, SCALE_SIGMA / 4.0].map(|sigma| smoothed(&raw, places, sigma));
-    let without_folds = |even: f64, fine: f64| even + (fine - even) / (1.0 + ((fine - even) / FOLD).powi(2));
-    let around = |(even, fine): (&Ring, &Ring)| -> Ring {
-        let ring: Ring = std::array::from_fn(|ray| without_folds(even[ray], fine[ray]));
+    let even = smoothed(&raw, places, SCALE_SIGMA);
+    let without_folds = |even: f64, raw: f64| even + (raw - even) / (1.0 + ((raw - even) / FOLD).powi(2));
+    let around = |(even, raw): (&Ring, &Ring)| -> Ring {
+        let ring: Ring = std::array::from_fn(|ray| without_folds(even[ray], raw[ray]));
         std::array::from_fn(|ray| {
             0.25 * ring[(ray + RAYS - 1) % RAYS] + 0.5 * ring[ray] + 0.25 * ring[(ray + 1) % RAYS]
         })
     };
-    let scales = even.iter().zip(&fine).map(around).collect();
+    let scales = even.iter().zip(&raw).map(around).collect();
     RadiusMap { scales, ..map.clone() }
 }
 
