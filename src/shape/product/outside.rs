@@ -41,7 +41,7 @@ impl<'a> Outside<'a> {
         Tree::of(&self.surface, self.triangles.len())
     }
 
-    /// The closest point to `p`, how far outside of the body `p` is, below 0 inside, and the way out; `None` where there is
+    /// The closest point to `p`, how far outside of the body `p` is along the way out, below 0 inside, and that way; `None` where there is
     /// no inside: beyond a rim, where the closest point is on it, and where there is no surface.
     ///
     /// `guess`: a triangle that may be near, which saves time.

@@ -175,7 +175,7 @@ impl Worn {
             let hit = hits.into_iter().find(|hit| {
                 hit.t > OWN_SHEET && hit.t <= 1.0 && !triangles[hit.triangle].contains(&(index as u32))
             });
-            let under = hit.filter(|hit| hit.t * distance < reach).map(|hit| Under {
+            let under = hit.filter(|hit| hit.t * closest.distance < reach).map(|hit| Under {
                 corners: triangles[hit.triangle],
                 barycentric: [1.0 - hit.u - hit.v, hit.u, hit.v],
             });
@@ -217,7 +217,7 @@ fn lying_over(
     let reach = WORN_REACH * figure.height();
     let lies = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
         let p = figure.positions[first[places[index] as usize] as usize];
-        outside.at(p, None).is_some_and(|(_, distance, _)| distance > 0.0 && distance < reach)
+        outside.at(p, None).is_some_and(|(closest, distance, _)| distance > 0.0 && closest.distance < reach)
     });
     let mut counts = vec![(0u32, 0u32); weld.count];
     for (&place, &lies) in places.iter().zip(&lies) {
