@@ -92,11 +92,11 @@ impl Measured {
             let chains = Chains::of(&figure);
             let frame = BodyFrame::of(&figure, &anatomy);
             let profile = measure_profile(&figure, &figure.positions, &chains, &weld, &frame, threads);
-            Ok((Arc::new(weld), Arc::new(chains), profile))
+            Ok((Arc::new(weld), Arc::new(chains), frame, profile))
         };
         let ((shape, face), made) = parallel::both(threads, radii_and_face, || weld_and_profile(progress));
-        let (weld, chains, (profile, lines)) = made?;
-        anatomy.centre_line.clone_from(&lines.centre_line);
+        let (weld, chains, frame, (profile, lines)) = made?;
+        anatomy.centre_line = frame.centre_line(profile.torso.as_ref());
         let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
         shape.proportions = Some(anatomy.proportions.clone());

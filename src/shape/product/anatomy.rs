@@ -65,6 +65,7 @@ const FOOT_ASIDE: f64 = 0.35;
 /// A limb's radius is measured between these shares of its bone: joints bulge (D27). Seen: from 0 on, or to 0.56 only,
 /// vertices move by up to 0.04 H.
 const RADIUS_RANGE: (f64, f64) = (0.2, 0.8);
+
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limb {

@@ -221,10 +221,11 @@ impl Request<'_> {
         let sliced = profile.filter(|_| has_legs).map_or(0.0, |(_, share)| share.clamp(0.0, 1.0));
         let (scales, limits) = part_coefficients(&anatomy.proportions, goal, lost, sliced, options, groups)?;
         let parts = PartField::new(anatomy, scales);
-        let slices = profile.map(|(wanted, share)| {
+        let charted = profile.map(|(wanted, share)| {
             let chart = &product.chart;
             chart.slices(&parts, wanted, &strengths(*share, options, groups, chart.frame()))
         });
+        let (parts, slices) = charted.map_or((parts, None), |(slices, about)| (about, Some(slices)));
         let coefficients = slices.as_ref().map_or(scales, |slices| slices.coefficients);
         let limited = slices.as_ref().and_then(Slices::limited);
         let field = parts.with(slices, &product.parts.pieces);

@@ -64,7 +64,7 @@ pub fn mean_bindings(
 }
 
 /// The role whose bone, of an arm or a leg, a joint stands on: its own, or that of a twist bone on the way to the next.
-pub fn on_limb(figure: &Figure, joint: usize) -> Option<Role> {
+pub fn limb_bone(figure: &Figure, joint: usize) -> Option<Role> {
     use Role::*;
     let role = figure.joint_roles[joint]?;
     let next = match role {
@@ -89,7 +89,7 @@ pub fn on_limb(figure: &Figure, joint: usize) -> Option<Role> {
 /// The binding of a joint that stands on the bones of an arm: it follows these, so that the arm keeps its angles and a twist bone
 /// its share of the way.
 pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
-    let part = Part::of(on_limb(figure, joint)?);
+    let part = Part::of(limb_bone(figure, joint)?);
     (part < Part::LeftUpperLeg)
         .then(|| PartBinding { attachment: Attachment::OnBone, ..PartBinding::to(part) })
 }

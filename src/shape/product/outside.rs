@@ -41,8 +41,8 @@ impl<'a> Outside<'a> {
         Tree::of(&self.surface, self.triangles.len())
     }
 
-    /// The closest point to `p`, how far outside of the body `p` is along the way out, below 0 inside, and that way; `None` where there is
-    /// no inside: beyond a rim, where the closest point is on it, and where there is no surface.
+    /// The closest point to `p`, how far outside of the body `p` is along the way out, below 0 inside, and that way; `None` where
+    /// there is no inside: beyond a rim, where the closest point is on it, and where there is no surface.
     ///
     /// `guess`: a triangle that may be near, which saves time.
     pub fn at(&self, p: DVec3, guess: Option<u32>) -> Option<(Closest, f64, DVec3)> {
@@ -60,8 +60,7 @@ impl<'a> Outside<'a> {
         }
         let normal = self.outwards * blend.normalize_or_zero();
         // Along the way out: where that is no way to the closest point, as in a crease, last digits tell the side.
-        let distance = (p - closest.point).dot(normal);
-        Some((closest, distance, normal))
+        Some((closest, (p - closest.point).dot(normal), normal))
     }
 }
 
@@ -97,4 +96,40 @@ fn vertex_normals(points: &[DVec3], triangles: &[[u32; 3]], rims: &[u32], weld: 
         normals[vertex as usize] = DVec3::ZERO;
     }
     normals.iter().map(|normal| normal.normalize_or_zero()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::weld::weld;
+
+    #[test]
+    fn around_a_sharp_edge_the_distance_does_not_jump() {
+        // A blade: one face of the edge is three times as large as the other, so the way out there is nearly that face's.
+        let points = [
+            DVec3::new(0.0, 0.0, -1.0),
+            DVec3::new(0.0, 0.0, 1.0),
+            DVec3::new(-1.0, 0.0, 0.0),
+            DVec3::new(-0.3, -0.02, 0.0),
+        ];
+        let triangles = [[0, 1, 2], [1, 0, 3], [2, 3, 0], [3, 2, 1]];
+        let weld = weld(&points, 1e-9);
+        let outwards = volume(&points, &triangles).signum();
+        let outside = Outside::new(&points, &triangles, &rims(&triangles, &weld), &weld, outwards, None);
+        let around = |step: i32| {
+            let angle = std::f64::consts::PI * (0.5 - f64::from(step) / 1000.0);
+            let p = 0.1 * DVec3::new(angle.cos(), angle.sin(), 0.0);
+            (p, outside.at(p, None).unwrap().1)
+        };
+        let (mut before, mut least) = (around(0), f64::INFINITY);
+        for step in 1..1000 {
+            let now = around(step);
+            assert!(
+                (now.1 - before.1).abs() <= 1.001 * now.0.distance(before.0),
+                "{step}: {before:?} {now:?}"
+            );
+            (before, least) = (now, least.min(now.1.abs()));
+        }
+        assert!(least < 1e-3, "the way out is everywhere that of the closest point: {least}");
+    }
 }

@@ -92,17 +92,16 @@ impl PartField {
     }
 
     /// The same field about another centre line of the torso.
-    pub fn about(&self, centre_line: &[(f64, f64)]) -> Self {
-        Self::new(&Anatomy { centre_line: centre_line.to_vec(), ..self.anatomy.clone() }, self.coefficients)
+    pub fn about(&self, centre_line: Vec<(f64, f64)>) -> Self {
+        Self::new(&Anatomy { centre_line, ..self.anatomy.clone() }, self.coefficients)
     }
 
     /// The same field after `slices`, which takes `pieces` along.
-    pub fn with(&self, slices: Option<Slices>, pieces: &[Piece]) -> Self {
-        let mut field = self.about(slices.as_ref().map_or(&self.anatomy.centre_line, |it| &it.centre_line));
-        field.slices = slices;
-        field.place_limbs();
-        field.pieces = pieces.iter().map(|piece| field.piece_map(piece)).collect();
-        field
+    pub fn with(mut self, slices: Option<Slices>, pieces: &[Piece]) -> Self {
+        self.slices = slices;
+        self.place_limbs();
+        self.pieces = pieces.iter().map(|piece| self.piece_map(piece)).collect();
+        self
     }
 
     /// Its coefficients.

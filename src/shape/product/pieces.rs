@@ -1,7 +1,7 @@
 //! What keeps its shape: hats, bags, buttons move and scale as one (product mode).
 
 use super::anatomy::{Anatomy, Limb};
-use super::joint_bindings::on_limb;
+use super::joint_bindings::limb_bone;
 use super::part::{PART_COUNT, Part, PartWeights, add};
 use super::strand;
 use crate::character::{MeshKind, Role, Skeleton};
@@ -318,7 +318,7 @@ fn strands<'a>(
 fn uppermost_without_role(figure: &Figure, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let joint_count = figure.joints.len();
     // A twist joint of a limb is the limb's: what it moves is worn there, and goes along as that becomes shorter.
-    let of_limbs = (0..joint_count).filter(|&joint| on_limb(figure, joint).is_some());
+    let of_limbs = (0..joint_count).filter(|&joint| limb_bone(figure, joint).is_some());
     let has_role = marked(joint_count, figure.humanoid.iter().map(|(_, joint)| joint).chain(of_limbs));
     let top = |joint: usize| skeleton.ancestors(joint).take_while(|&above| !has_role[above]).last();
     (0..joint_count).map(|joint| top(joint).filter(|_| figure.joint_roles[joint].is_some())).collect()

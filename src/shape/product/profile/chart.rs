@@ -34,8 +34,6 @@ pub struct Slices {
     pub relief: Relief,
     /// Then, before each part.
     pub map: BodyMap,
-    /// What relief leaves of the torso's centre line.
-    pub centre_line: Vec<(f64, f64)>,
     /// How much longer and thicker parts become by these maps and their own together, in the mean of their slices.
     pub coefficients: PartCoefficients,
     /// Of what soft limits took more than a tenth, the scale that was wanted and the one that it got.
@@ -58,8 +56,9 @@ impl Chart {
         &self.frame
     }
 
-    /// The maps that, before those of `parts`, give the body so much of the profile `wanted`.
-    pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Slices {
+    /// The maps that give the body so much of the profile `wanted`, and `parts` as they are to follow them: about the line that
+    /// relief leaves of the torso.
+    pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> (Slices, PartField) {
         let frame = &self.frame;
         let grows = Grows::of(parts, frame);
         let thicker = self.thicker(wanted).map(|row| mean(row.into_iter().map(f64::ln)).exp());
@@ -81,7 +80,8 @@ impl Chart {
             *hand = std::array::from_fn(|axis| hand[axis] * (closed[axis] / hand[axis]).powf(share));
         }
         // The torso's own curve goes with its relief: parts that flattened it would put it back.
-        let grows = Grows { parts: &parts.about(&lines.centre_line), ..grows };
+        let about = parts.about(frame.centre_line(smooth.torso.as_ref()));
+        let grows = Grows { parts: &about, ..grows };
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         grows.back(&mut scales, &smooth, &straight);
@@ -90,13 +90,13 @@ impl Chart {
         for (thicker, strength) in relieved.iter_mut().flatten().zip(strength.iter().flatten()) {
             *thicker = if *strength > 0.0 { *thicker } else { 1.0 };
         }
-        Slices {
+        let slices = Slices {
             coefficients: self.coefficients(parts.coefficients(), &scales, &relieved),
             relief,
             map: BodyMap::new(&smooth, &lines, frame, &scales, torso_place),
-            centre_line: lines.centre_line,
             limited: scales.limited,
-        }
+        };
+        (slices, about)
     }
 
     /// How much thicker the slices of torso, legs and arms are in the profile `other`, in its heads.
@@ -229,7 +229,6 @@ impl Chart {
         for (now, own) in lines.arm_middles.iter_mut().flatten().flatten().zip(own_middles) {
             even_places(now, own, length);
         }
-        lines.centre_line = frame.centre_line(now.torso.as_ref());
         (now, lines)
     }
 }

@@ -125,7 +125,7 @@ impl BodyFrame {
     }
 
     /// The line through the middles of a torso's slices: (height, z), rising; without them the hips alone.
-    pub(super) fn centre_line(&self, torso: Option<&TorsoProfile>) -> Vec<(f64, f64)> {
+    pub fn centre_line(&self, torso: Option<&TorsoProfile>) -> Vec<(f64, f64)> {
         let Some(torso) = torso else { return vec![(self.hips.y, self.hips.z)] };
         let point = |(t, forward)| {
             (self.heights.crotch + t * self.torso_length(), self.hips.z + self.head_length() * forward)
@@ -189,14 +189,12 @@ impl BodyFrame {
     }
 }
 
-/// What a map needs of its own figure beside the profile: lines through the middles of its slices.
+/// What a map needs of its own figure beside the profile: the middles of its arms' slices and hands, in each arm's planes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyLines {
-    /// The torso's: (height, z), rising; at least one point.
-    pub centre_line: Vec<(f64, f64)>,
-    /// The arms', left, right, in each arm's planes; smoothed, model units.
+    /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// The same of hands, at the same parts of their own lengths.
+    /// The same of hands, at the same parts of their own lengths, in the arms' planes.
     pub hand_middles: [Option<[Row; 2]>; 2],
     /// Length, half breadth and half thickness of hands whose thumbs are closed as a mitt's, in head lengths.
     pub closed_hand: Option<[f64; 3]>,
@@ -244,9 +242,7 @@ pub fn measure_profile(
             / (2.0 * length),
         arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
-    let profile = profile.sound();
-    let centre_line = frame.centre_line(profile.torso.as_ref());
-    (profile, BodyLines { centre_line, arm_middles, hand_middles, closed_hand })
+    (profile.sound(), BodyLines { arm_middles, hand_middles, closed_hand })
 }
 
 /// A body to be measured, as it is now.

@@ -93,11 +93,13 @@ impl Reaches {
             let map = self.0[number].as_ref().filter(|_| strength[chain] != [0.0; STATIONS])?;
             let heights = (0..map.reaches.len()).map(|row| map.start + map.step * row as f64);
             let places: Vec<f64> = heights.clone().map(|height| place(chain, height)).collect();
-            let length =
-                [frame.torso_length(), frame.leg_length, frame.arm_lengths[number.max(3) - 3]][chain];
-            let slices = stations([TORSO_STATIONS, LEG_STATIONS, ARM_STATIONS][chain]);
+            let (sigma, length, slices) = match number {
+                0 => (TORSO_SIGMA, frame.torso_length(), TORSO_STATIONS),
+                1 | 2 => (LIMB_SIGMA, frame.leg_length, LEG_STATIONS),
+                arm => (LIMB_SIGMA, frame.arm_lengths[arm - 3], ARM_STATIONS),
+            };
+            let slices = stations(slices);
             let strength = heights.map(|height| monotone_cubic(&slices, &strength[chain], height / length));
-            let sigma = if chain == 0 { TORSO_SIGMA } else { LIMB_SIGMA };
             Some(scaled(map, &places, &smoothed(&map.reaches, &places, sigma), strength))
         };
         Relief { maps: std::array::from_fn(relief), frame: frame.clone() }
