@@ -7,8 +7,9 @@ use std::f64::consts::PI;
 use superdeform::{Character, Joint, Mesh, MeshKind, Role, Weights};
 
 /// The kinds.
-pub const KINDS: [Kind; 9] = [
+pub const KINDS: [Kind; 10] = [
     Kind::Straight,
+    Kind::Draped,
     Kind::TwinTails,
     Kind::OneTail,
     Kind::Waves,
@@ -24,6 +25,8 @@ pub const KINDS: [Kind; 9] = [
 pub enum Kind {
     /// A sheet over the back to the hips.
     Straight,
+    /// A sheet that leaves the head above the ears and lies down on the shoulder blades, to the waist.
+    Draped,
     /// Two tails with ties that end in tufts.
     TwinTails,
     /// One behind, to the waist.
@@ -141,6 +144,14 @@ pub fn with_hair(person: &Person, kind: Kind) -> Character {
     let around = (0.38 * PI, 1.62 * PI);
     match kind {
         Kind::Straight | Kind::OneSkin => head.sheet(&mut shape, around, hips, |_, y| head.lying(y)),
+        Kind::Draped => {
+            let (leaves, lies) = (0.5, (person.shoulder_line() - person.chin()) / head.unit - 0.3);
+            head.sheet(&mut shape, around, waist, |_, y| {
+                let t = ((leaves - y) / (leaves - lies)).min(1.0);
+                let drapes = head.lying(leaves) + (head.lying(lies) - head.lying(leaves)) * t;
+                if t > 0.0 { drapes.max(head.lying(y)) } else { head.lying(y) }
+            });
+        }
         Kind::Waves => head.sheet(&mut shape, around, hips, |angle, y| {
             let wave = (10.0 * y).sin() * (6.0 * angle).cos().abs();
             head.lying(y) + 0.05 * wave * (0.5 - y).clamp(0.0, 1.0)

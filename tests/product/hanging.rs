@@ -186,6 +186,24 @@ fn hair_ends_where_it_ended_on_the_body_or_at_the_chin() {
     }
 }
 
+/// On an adult that becomes small: how far the hair's middle reaches behind the head's axis below the chin, against above the ears.
+#[test]
+fn draped_hair_hangs_straight_down_where_the_back_is_gone() {
+    let made = all().iter().find(|made| made.kind == Kind::Draped && !made.is_small()).unwrap();
+    let head = made.person.proportions.head;
+    let furthest = |points: &[DVec3], from: f64, to: f64| {
+        let is_there = |v: &usize| {
+            let y = (made.before[*v].y - made.person.chin()) / head;
+            (from..to).contains(&y) && made.before[*v].x.abs() < 0.1 * head
+        };
+        made.hair.iter().flatten().copied().filter(is_there).map(|v| -points[v].z).fold(0.0, f64::max)
+    };
+    let leans = |points: &[DVec3]| furthest(points, -2.0, 0.0) / furthest(points, 0.4, 0.6);
+    // As drawn it leans out by half; straight down it does not.
+    assert!(leans(&made.before) > 1.4, "{}", leans(&made.before));
+    assert!(leans(&made.after) < 1.06, "{}", leans(&made.after));
+}
+
 #[test]
 fn joints_go_with_their_strands() {
     for made in all().iter().filter(|made| matches!(made.kind, Kind::TwinTails | Kind::OneTail | Kind::Braid))

@@ -25,12 +25,8 @@ const OF_BODY: f64 = 0.8;
 const SHORT: (f64, f64) = (0.15, 0.4);
 /// Sideways a strand becomes shorter by this power less: 0 keeps its angles, 1 its width. D28.
 const FLARE: f64 = 0.3;
-/// What lies on the body becomes shorter by so much less where that begins, and by so much more at its tip, as an exponent. D28.
-const RAMP: f64 = 0.8;
 /// Hair ends at least this high above the ground, in head lengths. D28.
 const OVER_GROUND: f64 = 0.12;
-/// How much what the mean direction of strands misses may be made up for. D28.
-const MADE_UP: (f64, f64) = (0.8, 1.6);
 /// Hair keeps this share of its old distance from the body, up to the second number in head lengths; a push dies away to a third
 /// within the third, and is no longer than the fourth. D15.
 const KEPT: (f64, f64, f64, f64) = (0.7, 0.05, 0.25, 0.25);
@@ -54,8 +50,7 @@ struct Shortening {
     head: DVec3,
     /// Where it begins, in head lengths above the chin.
     begins: f64,
-    /// How far below the chin each place's strand should end, in head lengths before the head grows, and how much of it is left.
-    wanted: Vec<f64>,
+    /// How much is left of each place's strand.
     left: Vec<f64>,
 }
 
@@ -65,13 +60,9 @@ impl Hanging {
         let shortening = Shortening::of(strands, field, length);
         let none = vec![DVec3::ZERO; strands.points.len()];
         let solve = |lay: f64| strands.solve(|link| shortening.shorter(strands, link, lay), &none);
-        let mut short = solve(0.0);
+        let short = solve(0.0);
         let mut down = solve(1.0);
-        let made_up = shortening.made_up(strands, &short);
-        for (short, down) in short.iter_mut().zip(&mut down) {
-            *down -= *short;
-            *short *= made_up;
-        }
+        down.iter_mut().zip(&short).for_each(|(down, short)| *down -= *short);
         Self { short, down, shortening }
     }
 
@@ -125,7 +116,7 @@ impl Shortening {
             if depth > 0.0 { (begins + wanted) / (begins + depth) } else { 1.0 }
         };
         let left = strands.tips.iter().zip(&wanted).map(left).collect();
-        Self { head: DVec3::new(width, height, depth), begins, wanted, left }
+        Self { head: DVec3::new(width, height, depth), begins, left }
     }
 
     /// How much less a strand differs along a link than the head makes it, laid down by `lay`.
@@ -139,7 +130,8 @@ impl Shortening {
         let shorter = if begun > 0.0 {
             let (along, tip) = (strands.along(link), mean(&strands.tips));
             let part = ((self.begins - middle.y) / (self.begins - tip).max(SOFT)).clamp(0.0, 1.0);
-            let left = mean(&self.left).powf(1.0 - RAMP * lies * (1.0 - 2.0 * part));
+            // What lies on the body does not become shorter at once, and the most at its tip.
+            let left = mean(&self.left).powf(1.0 - lies * (1.0 - 2.0 * part));
             let left = 1.0 - begun * (1.0 - left);
             let across = left.powf(1.0 - FLARE * (1.0 - lies));
             (DVec3::new(across, left, across) - DVec3::ONE) * along * along.dot(strands.step(link))
@@ -147,22 +139,6 @@ impl Shortening {
             DVec3::ZERO
         };
         (1.0 - link.stiff) * strands.frame.length * self.head * (shorter + drawn_in)
-    }
-
-    /// What the displacement must be multiplied by so that tips end where they should: the mean directions lose something.
-    fn made_up(&self, strands: &Strands, short: &[DVec3]) -> f64 {
-        let unit = strands.frame.length * self.head.y;
-        let (mut sum, mut total) = (0.0, 0.0);
-        for (((p, &tip), wanted), short) in
-            strands.points.iter().zip(&strands.tips).zip(&self.wanted).zip(short)
-        {
-            let depth = (-tip).max(0.0);
-            let weight = smoothstep(depth / SHORT.1) * smoothstep(1.0 - (p.y - tip) / SOFT);
-            let rises = unit * (depth - wanted);
-            sum += weight * rises * short.y;
-            total += weight * short.y * short.y;
-        }
-        if total > 0.0 { (sum / total).clamp(MADE_UP.0, MADE_UP.1) } else { 1.0 }
     }
 }
 

@@ -46,7 +46,7 @@ const ON_BODY: (f64, f64) = (0.25, 0.4);
 /// How far hair reaches is looked at in rows of this height; head lengths.
 const ROW: f64 = 0.04;
 /// How much the outermost places count for it: the exponent of a mean.
-const OUTER: i32 = 8;
+const OUTER: i32 = 32;
 /// What is hair by more than this is, and goes as hair does by as much as it is so by more: skin under hair is so in part.
 const HAIR: f32 = 0.5;
 /// What the arms move more than this hair is not kept out of: they lift it.
@@ -141,7 +141,9 @@ impl Strands {
             vertices: vertices(&worn, weld, share),
             joints: joints(character, measured, &worn, bindings),
             sides: sides(&points, &pieces, measured.face.as_ref().map_or(0.0, |face| face.covered)),
-            lies: lying(figure, &worn, &points, frame.length, threads, &|vertex| !is_hair(vertex)),
+            lies: lying(figure, &worn, &points, frame.length, threads, &|vertex| {
+                !is_hair(vertex) && bindings[vertex].weight(Part::Head) < 0.5
+            }),
             drawn_in: Vec::new(),
             tips: Vec::new(),
             along: Vec::new(),
@@ -157,7 +159,7 @@ impl Strands {
         };
         strands.find_small(&pieces);
         strands.factor()?;
-        strands.tips = strands.tips();
+        strands.look_down();
         strands.look_along()?;
         strands.drawn_in = strands.drawn_in(frame.to_unit(anatomy.head_centre));
         Some(strands)
@@ -248,8 +250,9 @@ impl Strands {
         lower.filter(|&(row, ..)| row != NONE).collect()
     }
 
-    /// Where the ways down from each place end, the steeper the more they count.
-    fn tips(&self) -> Vec<f64> {
+    /// Finds where the ways down from each place end, the steeper the more they count. What hair that lies on the body hangs from lies
+    /// there too: it leans out because of what is below.
+    fn look_down(&mut self) {
         let mut ways: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.points.len()];
         for link in &self.links {
             let step = self.step(link);
@@ -261,17 +264,21 @@ impl Strands {
         }
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
         order.sort_by(|&a, &b| self.points[a as usize].y.total_cmp(&self.points[b as usize].y));
-        let mut tips: Vec<f64> = self.points.iter().map(|p| p.y).collect();
-        for place in order {
+        self.tips = self.points.iter().map(|p| p.y).collect();
+        for place in order.into_iter().map(|place| place as usize) {
             let own = STEEPNESS.1.powi(STEEPNESS.0);
-            let (mut sum, mut total) = (own * tips[place as usize], own);
-            for &(lower, weight) in &ways[place as usize] {
-                sum += weight * tips[lower as usize];
+            let (mut tip, mut lies, mut total) = (own * self.tips[place], own * self.lies[place], own);
+            for &(lower, weight) in &ways[place] {
+                tip += weight * self.tips[lower as usize];
+                lies += weight * self.lies[lower as usize];
                 total += weight;
             }
-            tips[place as usize] = sum / total;
+            self.tips[place] = tip / total;
+            self.lies[place] = self.lies[place].max(lies / total);
         }
-        tips
+        for (lies, p) in self.lies.iter_mut().zip(&self.points) {
+            *lies *= 1.0 - smoothstep((p.y - ON_BODY.0) / (ON_BODY.1 - ON_BODY.0));
+        }
     }
 
     /// Finds which way hair runs, as the mean over the thickness of a lock of how it would drain to where the head holds it; and
@@ -333,7 +340,7 @@ impl Strands {
             (sum / total.max(f64::MIN_POSITIVE)).powf(f64::from(OUTER).recip())
         };
         let reaches: Vec<DVec3> = (0..rows).map(reach).collect();
-        let of_head = (0..rows).filter(|&row| height(row) >= 0.0).map(|row| reaches[row]);
+        let of_head = (0..rows).filter(|&row| height(row) >= ON_BODY.1.min(high)).map(|row| reaches[row]);
         let on_head = of_head.fold(DVec3::splat(f64::MIN_POSITIVE), DVec3::max);
         let shares: Vec<DVec3> =
             reaches.iter().map(|&reach| (on_head / reach.max(on_head)).with_y(1.0)).collect();
@@ -439,7 +446,7 @@ fn join_loose(points: &[DVec3], groups: &mut Groups, mut join: impl FnMut(u32, u
     }
 }
 
-/// How far each place lies on the body, which `is_body` tells from hair.
+/// How far each place lies on the body, which `is_body` tells from hair and head.
 fn lying(
     figure: &Figure,
     worn: &Worn,
@@ -451,10 +458,9 @@ fn lying(
     let body = figure.triangles_where(|vertex| is_body(vertex) && !figure.is_carried(vertex));
     let surface = Surface::new(&figure.positions, &body);
     parallel::collect(threads, points.len(), parallel::FEW_RAYS, |place| {
-        let low = 1.0 - smoothstep((points[place].y - ON_BODY.0) / (ON_BODY.1 - ON_BODY.0));
         let p = figure.positions[worn.vertices[place] as usize];
         let gap = surface.closest_point(p).map_or(f64::INFINITY, |closest| closest.distance / length);
-        low * (1.0 - smoothstep((gap - LYING.0) / (LYING.1 - LYING.0)))
+        1.0 - smoothstep((gap - LYING.0) / (LYING.1 - LYING.0))
     })
 }
 
