@@ -210,10 +210,9 @@ impl<'a> Placement<'a> {
         }
     }
 
-    /// Where the body of the field alone takes every vertex, canonical frame.
-    pub fn all_placed(&self) -> Vec<DVec3> {
-        let (positions, bindings) = (&self.figure.positions, &self.bindings.vertices);
-        self.collect(positions.len(), |vertex| self.field.place_body(positions[vertex], &bindings[vertex]))
+    /// Where the body of the field alone takes `vertex`, canonical frame.
+    pub fn by_body(&self, vertex: usize) -> DVec3 {
+        self.field.place_body(self.figure.positions[vertex], &self.bindings.vertices[vertex])
     }
 
     /// Where every vertex goes, canonical frame.
@@ -226,7 +225,8 @@ impl<'a> Placement<'a> {
         self.collect(vertices.len(), |index| self.vertex(vertices[index] as usize))
     }
 
-    fn collect(&self, count: usize, place: impl Fn(usize) -> DVec3 + Sync) -> Vec<DVec3> {
+    /// What `place` gives for so many numbers.
+    pub fn collect(&self, count: usize, place: impl Fn(usize) -> DVec3 + Sync) -> Vec<DVec3> {
         parallel::collect(self.threads, count, parallel::FEW, place)
     }
 

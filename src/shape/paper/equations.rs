@@ -37,7 +37,8 @@ pub fn body(character: &Character, measured: &Measured, style: &Style, options: 
     let bindings = bindings(character, measured, &field);
     let field = Field::of(Arc::new(BodyField::Bones(PaperField { bones: field, stage: options.stage })));
     let figure = &measured.figure;
-    let placed = Placement::new(figure, &bindings, &field, options.thread_count).all_placed();
+    let placement = Placement::new(figure, &bindings, &field, options.thread_count);
+    let placed = placement.collect(figure.positions.len(), |vertex| placement.by_body(vertex));
     Ok(Body {
         bindings: Arc::new(bindings),
         field,

@@ -16,6 +16,7 @@ use crate::shape::field::{BodyField, Field};
 use crate::shape::placement::{Body, Placement};
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
+use glam::DVec3;
 use std::sync::Arc;
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
@@ -77,17 +78,20 @@ pub fn body(
     let best = request.best(&mut progress.part(0.0, 0.5))?;
     warnings.extend(best.limits.warnings(best.measured, asked));
     let heads_left = request.heads_left(&best);
-    let Attempt { field, coefficients, limited, heads, .. } = best;
+    let Attempt { field, coefficients, limited, heads: head_count, positions, .. } = best;
     warnings.extend(limited);
     progress.at(0.5)?;
-    let placed =
-        Placement::new(&measured.figure, &product.bindings, &field, options.thread_count).all_placed();
+    let placement = Placement::new(&measured.figure, &product.bindings, &field, options.thread_count);
+    let placed = placement.collect(measured.figure.positions.len(), |vertex| {
+        let known = positions.get(heads.slots[vertex] as usize);
+        known.copied().unwrap_or_else(|| placement.by_body(vertex))
+    });
     Ok(Body {
         field,
         bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
         head_ratio,
-        heads: Some(heads),
+        heads: Some(head_count),
         coefficients: coefficients.by_group(&groups),
         warnings,
         heads_left,
@@ -149,6 +153,8 @@ struct Attempt {
     /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
     /// that of its parts' lengths.
     error: f64,
+    /// Where the field takes the vertices that the head count is read from.
+    positions: Vec<DVec3>,
 }
 
 /// What is asked for, of whom.
@@ -231,14 +237,16 @@ impl Request<'_> {
         let field = parts.with(slices, &product.parts.pieces);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let placement = Placement::new(&target.figure, &product.bindings, &field, options.thread_count);
-        let positions = placement.vertices(&heads.vertices);
-        let joint = |joint| placement.joint(joint);
-        let measured = heads.heads(&HeadPlacement::of(&target.figure, positions, joint));
+        let of_head = |index| placement.by_body(heads.vertices[index] as usize);
+        let positions = placement.collect(heads.vertices.len(), of_head);
+        let placed = HeadPlacement::of(&target.figure, positions, |joint| placement.joint(joint));
+        let measured = heads.heads(&placed);
         let heads = if limits.act_on_heads() { limits.heads } else { asked };
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let read = if anatomy.landmarks.chin_seen { measured } else { limits.heads };
         let error = (read / heads).ln().abs();
-        Ok(Attempt { field, coefficients, limits, limited, heads, measured, error })
+        let positions = placed.positions;
+        Ok(Attempt { field, coefficients, limits, limited, heads, measured, error, positions })
     }
 }

@@ -70,10 +70,9 @@ impl Hanging {
     /// does: below the chin as much as there.
     pub fn all(&self, strands: &Strands, lay: f64, moved: &[DVec3]) -> Vec<DVec3> {
         let follows = |link: &Link| {
-            let [one, other] = link.ends.map(|place| moved[place as usize]);
-            let middle =
-                0.5 * (strands.points[link.ends[0] as usize].y + strands.points[link.ends[1] as usize].y);
-            (one - other) * smoothstep(middle / SOFT)
+            let [one, other] = link.ends.map(|place| place as usize);
+            let middle = strands.points[one].y.midpoint(strands.points[other].y);
+            (moved[one] - moved[other]) * smoothstep(middle / SOFT)
         };
         let mut all = strands.solve(follows, moved);
         for (all, (short, down)) in all.iter_mut().zip(self.short.iter().zip(&self.down)) {

@@ -143,6 +143,8 @@ pub fn landmarks(figure: &Figure) -> Landmarks {
 pub struct HeadSources {
     /// The figure's vertices that all else is numbered by.
     pub vertices: Vec<u32>,
+    /// The number of each vertex of the figure among these, or `NONE`.
+    pub slots: Vec<u32>,
     /// The head's own triangles: without hair, hats and the like, and with them.
     bare: HeadTriangles,
     with_hair: HeadTriangles,
@@ -171,7 +173,7 @@ struct HeadTriangles {
 /// Where what [`HeadSources`] lists is.
 pub struct HeadPlacement {
     /// By [`HeadSources::vertices`].
-    positions: Vec<DVec3>,
+    pub positions: Vec<DVec3>,
     /// Lowest and highest of these along up.
     extent: (f64, f64),
     head_joint: DVec3,
@@ -191,7 +193,7 @@ impl HeadSources {
         };
         // No row of rays that looks for the chin is as far below the shoulders, nor will be when the torso has become shorter.
         let shoulder_line = shoulder_line(figure, |joint| figure.joints[joint]);
-        let lowest = shoulder_line - (figure.extent.1 - shoulder_line);
+        let lowest = shoulder_line - 0.5 * (figure.extent.1 - shoulder_line);
         let mut upper = upper_triangles(figure);
         upper.retain(|corners| corners.iter().any(|&vertex| figure.positions[vertex as usize].y > lowest));
         let (mut bare, mut with_hair, mut soles) = (of_head(true), of_head(false), soles(figure));
@@ -210,7 +212,7 @@ impl HeadSources {
             head.vertices.iter_mut().chain(&mut head.sure).for_each(number);
         }
         soles.iter_mut().for_each(number);
-        Self { vertices, bare, with_hair, upper, soles }
+        Self { vertices, slots, bare, with_hair, upper, soles }
     }
 
     fn sole(&self, placed: &HeadPlacement) -> f64 {

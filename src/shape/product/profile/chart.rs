@@ -213,21 +213,17 @@ impl Chart {
         if let (Some(now), Some(own)) = (&mut now.torso, &self.own.torso) {
             even_lengths(&mut now.breadth, &own.breadth);
             even_lengths(&mut now.depth, &own.depth);
-            even_places(&mut now.forward, &own.forward, 1.0);
+            even_places(&mut now.forward, &own.forward);
         }
         if let (Some(now), Some(own)) = (&mut now.leg, &self.own.leg) {
             even_lengths(&mut now.breadth, &own.breadth);
             even_lengths(&mut now.depth, &own.depth);
-            even_places(&mut now.outward, &own.outward, 1.0);
-            even_places(&mut now.forward, &own.forward, 1.0);
+            even_places(&mut now.outward, &own.outward);
+            even_places(&mut now.forward, &own.forward);
         }
         if let (Some(now), Some(own)) = (&mut now.arm, &self.own.arm) {
             even_lengths(&mut now.breadth, &own.breadth);
             even_lengths(&mut now.depth, &own.depth);
-        }
-        let own_middles = self.lines.arm_middles.iter().flatten().flatten();
-        for (now, own) in lines.arm_middles.iter_mut().flatten().flatten().zip(own_middles) {
-            even_places(now, own, length);
         }
         (now, lines)
     }
@@ -238,10 +234,10 @@ fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     geometry::mean(numbers).unwrap_or(0.0)
 }
 
-/// Makes places `now` as smooth as their `own` ones were, where a head length is `unit`.
-fn even_places(now: &mut Row, own: &Row, unit: f64) {
-    if let Some(even) = smooth(&std::array::from_fn(|at| (now[at] - own[at]) / unit)) {
-        *now = std::array::from_fn(|at| own[at] + unit * even[at]);
+/// Makes places `now` as smooth as their `own` ones were.
+fn even_places(now: &mut Row, own: &Row) {
+    if let Some(even) = smooth(&std::array::from_fn(|at| now[at] - own[at])) {
+        *now = std::array::from_fn(|at| own[at] + even[at]);
     }
 }
 

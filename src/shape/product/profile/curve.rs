@@ -61,6 +61,9 @@ pub fn bell(away: f64) -> f64 {
     near * near * near
 }
 
+/// So far apart, in widths, means are taken that rows between them lie between: they differ by 2e-3 of what a bell takes away.
+const MEANS_APART: f64 = 0.125;
+
 /// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
 /// way as is its own.
 pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
@@ -72,7 +75,7 @@ pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -
     };
     let ways: Vec<f64> = (0..rows.len()).map(own).collect();
     let mut first = 0;
-    let mean = |row: usize| {
+    let mut mean = |row: usize| {
         let here = places[row];
         while places[first] < here - BELL_ENDS * sigma {
             first += 1;
@@ -85,7 +88,19 @@ pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -
         }
         sum.map(|sum| sum / total)
     };
-    (0..rows.len()).map(mean).collect()
+    let (mut all, mut known) = (vec![mean(0)], 0);
+    for row in 1..=last {
+        if row == last || places[row + 1] - places[known] > MEANS_APART * sigma {
+            let (before, after) = (all[known], mean(row));
+            let way = (places[row] - places[known]).max(TINY);
+            all.extend((known + 1..=row).map(|between| {
+                let t = (places[between] - places[known]) / way;
+                std::array::from_fn(|at| before[at] + t * (after[at] - before[at]))
+            }));
+            known = row;
+        }
+    }
+    all
 }
 
 /// `N` functions of one place, sampled at even steps; between the samples cubic, with a slope that has no jumps; constant

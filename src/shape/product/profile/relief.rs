@@ -52,9 +52,6 @@ const SKIRT_FADE: (f64, f64) = (0.25, 0.45);
 /// What moves with an arm by the first of these still has all of the torso's relief smoothed, by the second none of it. Made
 /// weights give a bust beside the arm pits .2 of the arms; where that counted, it stayed a spike.
 const OF_ARM: (f64, f64) = (0.1, 0.5);
-/// Under the crotch, over this part of the torso's length, the torso's relief stops moving what it smooths sideways: legs stay where
-/// they stand. Seen: within a third of that the corners of a jacket's hem stand out.
-const LEGS_STAY: f64 = 0.15;
 
 /// How far a body reaches around torso, legs and arms (left, right), as it stands.
 #[derive(Clone, Debug)]
@@ -126,8 +123,7 @@ impl Relief {
                 * (1.0 - smoothstep(of_head / 0.5));
             let (share, slope) = self.torso_share(p.y, is_skirt);
             if bound * share > 0.0 {
-                let shift = if is_skirt { map.shift(p) } else { self.torso_shift(map, p) };
-                add(bound * share, DVec3::Y * (bound * slope), shift);
+                add(bound * share, DVec3::Y * (bound * slope), map.shift(p));
             }
         }
         for side in 0..2 {
@@ -172,22 +168,6 @@ impl Relief {
         let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
         ((1.0 - top) * (1.0 - bottom), slope / torso_length)
-    }
-
-    /// How the torso's relief moves `p`: below the crotch what stands there stays where it stands.
-    fn torso_shift<M: Moved>(&self, map: &RadiusMap, p: DVec3) -> M {
-        let shift: M = map.shift(p);
-        let crotch = self.frame.heights.crotch;
-        if p.y >= crotch {
-            return shift;
-        }
-        let reach = LEGS_STAY * self.frame.torso_length();
-        let (below, below_slope) = smoothstep_slope((crotch - p.y) / reach);
-        let DVec3 { x, y, z } = shift.position();
-        M::of(DVec3::new((1.0 - below) * x, y, z), || {
-            let keep = DMat3::from_diagonal(DVec3::new(1.0 - below, 1.0, 1.0));
-            keep * shift.jacobian() + outer(DVec3::X * x, DVec3::Y * (below_slope / reach))
-        })
     }
 }
 
