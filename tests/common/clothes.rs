@@ -162,23 +162,26 @@ pub fn worn(character: &Character) -> Worn {
     Worn::of(&figure, |vertex| known[vertex], &weld, 0)
 }
 
-/// For each place of what is worn that is no part of the body whether the body is around it, where all vertices are at
-/// `positions`.
-pub fn inside(worn: &Worn, positions: &[Vec<DVec3>]) -> Vec<bool> {
+/// How often the body goes around each place of what is worn, where all vertices are at `positions`; never where the place is a part
+/// of the body.
+pub fn around(worn: &Worn, positions: &[Vec<DVec3>]) -> Vec<f64> {
     let points = positions.concat();
     let corners: Vec<[DVec3; 3]> =
         worn.body.iter().map(|corners| corners.map(|vertex| points[vertex as usize])).collect();
     let winding = Winding::new(&corners);
     let places = worn.vertices.iter().zip(&worn.is_sewn);
-    places.map(|(&vertex, &is_sewn)| !is_sewn && winding.at(points[vertex as usize]) > 0.5).collect()
+    places
+        .map(|(&vertex, &is_sewn)| if is_sewn { 0.0 } else { winding.at(points[vertex as usize]) })
+        .collect()
 }
 
-/// The share of what is worn that is inside the body in `pose` and was not before: of what is `deformed` of `character`.
+/// The share of what is worn that is inside the body in `pose` and went through its surface, which changes the winding number by 1
+/// however many holes the body has: of what is `deformed` of `character`.
 pub fn newly_inside(character: &Character, worn: &Worn, deformed: &Deformed, pose: Pose) -> f64 {
-    let before = inside(worn, &posed(character, pose));
+    let before = around(worn, &posed(character, pose));
     let result = character.with(deformed);
-    let after = inside(worn, &posed(&result, pose));
+    let after = around(worn, &posed(&result, pose));
     assert!(before.len() > 500, "{} places are worn", before.len());
-    let count = before.iter().zip(&after).filter(|&(&before, &after)| after && !before).count();
-    count as f64 / before.len() as f64
+    let went = before.iter().zip(&after).filter(|&(&before, &after)| after > 0.5 && after - before > 0.5);
+    went.count() as f64 / before.len() as f64
 }

@@ -218,6 +218,40 @@ fn a_mirrored_person_keeps_the_mirrored_shirt() {
     }
 }
 
+/// A body that ends above the middle of its shirt, as those do without skin under their clothes.
+#[test]
+fn cloth_is_inside_where_it_went_through_the_body_and_not_where_it_is_before_a_hole_of_it() {
+    let mut dressed = Dressed::of(&[0.004], true);
+    let middle = 0.5 * (dressed.person.crotch() + dressed.person.shoulder_line());
+    let shirt = dressed.mesh(dressed.shirts().next().unwrap());
+    let drawn_in = |p: DVec3, by: f64| p - by * DVec3::new(p.x, 0.0, p.z).normalize();
+    for vertex in shirt.clone() {
+        let p = &mut dressed.figure.positions[vertex];
+        *p = if p.y < middle { drawn_in(*p, 0.04) } else { *p };
+    }
+    let before = dressed.figure.clone();
+    let is_whole = |corners: &[u32; 3]| {
+        corners
+            .iter()
+            .all(|&vertex| shirt.contains(&(vertex as usize)) || before.positions[vertex as usize].y > middle)
+    };
+    dressed.figure.triangles.retain(is_whole);
+    let worn = Worn::of(&dressed.figure, |_| true, &dressed.weld, 1);
+    let moved = |to: &dyn Fn(DVec3) -> DVec3| {
+        let mut after = dressed.figure.clone();
+        shirt.clone().for_each(|vertex| after.positions[vertex] = to(after.positions[vertex]));
+        let [inside] = worn.newly_inside(&dressed.figure, &after, [&[]], 1);
+        inside
+    };
+    // Up to the hole and a little into it.
+    let near = |p: DVec3| (middle - 0.06..middle).contains(&p.y);
+    assert_eq!(moved(&|p| if near(p) { p.with_y(middle + 0.012) } else { p }), 0.0);
+    let share = shirt.clone().filter(|&vertex| before.positions[vertex].y > middle).count() as f64
+        / shirt.len() as f64;
+    let inside = moved(&|p| if p.y > middle { drawn_in(p, 0.02) } else { p });
+    assert!((inside - share).abs() < 0.1, "{inside} of {share}");
+}
+
 #[test]
 fn threads_change_no_bit_of_a_push() {
     let dressed = Dressed::of(&[0.004, 0.01], true);

@@ -96,8 +96,8 @@ impl Worn {
         Outside::new(points, &self.body, &self.rims, weld, self.outwards, Some(&self.tree))
     }
 
-    /// For each of `poses` the share of all places that are inside of the body in the figure `after`, and are not in the figure
-    /// `before`, of which all this was found.
+    /// For each of `poses` the share of all places that went through the body's surface: inside of it in the figure `after`, and not in
+    /// the figure `before`, of which all this was found.
     pub fn newly_inside<const N: usize>(
         &self,
         before: &Figure,
@@ -106,25 +106,24 @@ impl Worn {
         threads: usize,
     ) -> [f64; N] {
         let groups = WindingGroups::new(&before.positions, &self.body);
-        let inside = |figure: &Figure, pose: Pose, mut places: Vec<u32>| {
+        let around = |figure: &Figure, pose: Pose, places: &[u32]| {
             if places.is_empty() {
-                return places;
+                return Vec::new();
             }
             let points = posed(figure, pose);
             let winding = groups.between(&points);
-            let is_inside = parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
-                let p = points[self.vertices[places[index] as usize] as usize];
-                self.outwards * winding.at(p) > 0.5
-            });
-            let mut is_inside = is_inside.into_iter();
-            places.retain(|_| is_inside.next() == Some(true));
-            places
+            parallel::collect(threads, places.len(), parallel::FEW_RAYS, |index| {
+                self.outwards * winding.at(points[self.vertices[places[index] as usize] as usize])
+            })
         };
         let loose = (0..).zip(&self.is_sewn).filter(|(_, is_sewn)| !**is_sewn).map(|(place, _)| place);
+        let loose: Vec<u32> = loose.collect();
         poses.map(|pose| {
-            let found = inside(after, pose, loose.clone().collect());
-            let count = found.len();
-            (count - inside(before, pose, found).len()) as f64 / self.places.len() as f64
+            let now = loose.iter().copied().zip(around(after, pose, &loose));
+            let (places, now): (Vec<u32>, Vec<f64>) = now.filter(|(_, winding)| *winding > 0.5).unzip();
+            // What goes through a surface changes by 1, however many holes that has; what is beside a hole, bit by bit.
+            let went = now.iter().zip(around(before, pose, &places)).filter(|(now, was)| *now - was > 0.5);
+            went.count() as f64 / self.places.len() as f64
         })
     }
 
