@@ -64,25 +64,25 @@ pub fn bell(away: f64) -> f64 {
 /// So far apart, in widths, means are taken that rows between them lie between: they differ by 2e-3 of what a bell takes away.
 const MEANS_APART: f64 = 0.125;
 
-/// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, and each counts for as much of the
-/// way as is its own.
+/// Weighted means along `rows`, by a [`bell`] `sigma` wide: rows lie at `places`, which rise, or all fall where a chain is turned
+/// over, and each counts for as much of the way as is its own.
 pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -> Vec<[f64; N]> {
     let last = rows.len() - 1;
     let own = |row: usize| {
         let (before, after) = (row.saturating_sub(1), (row + 1).min(last));
         // An end counts for as much to both sides.
-        ((places[after] - places[before]) / (after - before).max(1) as f64).max(TINY)
+        ((places[after] - places[before]).abs() / (after - before).max(1) as f64).max(TINY)
     };
     let ways: Vec<f64> = (0..rows.len()).map(own).collect();
     let mut first = 0;
     let mut mean = |row: usize| {
-        let here = places[row];
-        while places[first] < here - BELL_ENDS * sigma {
+        let away = |near: usize| (places[near] - places[row]).abs() / sigma;
+        while away(first) > BELL_ENDS {
             first += 1;
         }
         let (mut sum, mut total) = ([0.0; N], 0.0);
-        for near in (first..rows.len()).take_while(|&near| places[near] <= here + BELL_ENDS * sigma) {
-            let weight = ways[near] * bell((places[near] - here) / sigma);
+        for near in (first..rows.len()).take_while(|&near| away(near) <= BELL_ENDS) {
+            let weight = ways[near] * bell(away(near));
             sum.iter_mut().zip(&rows[near]).for_each(|(sum, value)| *sum += weight * value);
             total += weight;
         }
@@ -90,13 +90,13 @@ pub fn smoothed<const N: usize>(rows: &[[f64; N]], places: &[f64], sigma: f64) -
     };
     let (mut all, mut known) = (vec![mean(0)], 0);
     for row in 1..=last {
-        if row == last || places[row + 1] - places[known] > MEANS_APART * sigma {
+        if row == last || (places[row + 1] - places[known]).abs() > MEANS_APART * sigma {
             let (before, after) = (all[known], mean(row));
-            let way = (places[row] - places[known]).max(TINY);
-            all.extend((known + 1..=row).map(|between| {
-                let t = (places[between] - places[known]) / way;
-                std::array::from_fn(|at| before[at] + t * (after[at] - before[at]))
+            all.extend((known + 1..row).map(|between| {
+                let t = (between - known) as f64 / (row - known) as f64;
+                std::array::from_fn(|at| (1.0 - t) * before[at] + t * after[at])
             }));
+            all.push(after);
             known = row;
         }
     }
@@ -186,6 +186,23 @@ impl<const N: usize> Reading<'_, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn wide_bells_take_means_apart_and_places_may_fall() {
+        let count = 400;
+        let places: Vec<f64> = (0..count).map(|row| 0.003 * f64::from(row)).collect();
+        // A step, of which a bell makes its own integral.
+        let rows: Vec<[f64; 1]> = places.iter().map(|&place| [if place < 0.6 { 1.0 } else { 0.0 }]).collect();
+        let smooth = smoothed(&rows, &places, 0.16);
+        for (row, [value]) in smooth.iter().enumerate().filter(|(row, _)| (120..280).contains(row)) {
+            let weights = places.iter().map(|place| bell((place - places[row]) / 0.16));
+            let all: f64 = weights.clone().sum();
+            let before: f64 = weights.zip(&rows).map(|(weight, row)| weight * row[0]).sum();
+            assert!((value - before / all).abs() < 2e-3, "{row}: {value} instead of {}", before / all);
+        }
+        let falling: Vec<f64> = places.iter().map(|place| -place).collect();
+        assert_eq!(smoothed(&rows, &falling, 0.16), smooth);
+    }
 
     #[test]
     fn the_cubic_is_monotone_meets_its_knots_and_stays_beyond_them() {
