@@ -61,8 +61,7 @@ impl Hanging {
         let none = vec![DVec3::ZERO; strands.points.len()];
         let solve = |lay: f64| strands.solve(|link| shortening.shorter(strands, link, lay), &none);
         let short = solve(0.0);
-        let mut down = solve(1.0);
-        down.iter_mut().zip(&short).for_each(|(down, short)| *down -= *short);
+        let down = solve(1.0).iter().zip(&short).map(|(down, short)| *down - *short).collect();
         Self { short, down, shortening }
     }
 

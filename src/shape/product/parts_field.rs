@@ -303,11 +303,12 @@ impl PartField {
             // Where the slices leave the joints; directions stay those at rest.
             let [first, second, last] = limb.parts;
             let joints = [limb.root, limb.middle, limb.end];
-            let from: [DVec3; 3] = match &self.slices {
+            let sliced: [DVec3; 3] = match &self.slices {
                 Some(slices) if is_arm => joints.map(|joint| slices.map.on_bones(joint, index)),
                 Some(slices) => std::array::from_fn(|at| slices.map.part(limb.parts[at], joints[at], false)),
                 None => joints,
             };
+            let from = if sliced.iter().all(|joint| joint.is_finite()) { sliced } else { joints };
             let mut root = self.torso(from[0]).position;
             root.x = self.anatomy.middle_x + spread * (from[0].x - self.anatomy.middle_x);
             self.affine[first] = Affine::stretch(from[0], root, limb.middle - limb.root, upper);
