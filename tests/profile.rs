@@ -265,7 +265,7 @@ fn a_trunk_that_curves_becomes_a_straight_barrel() {
     };
     let (before, after) = (off_line(&before), off_line(&after));
     assert!(before > 0.03, "the trunk is straight: {before}");
-    assert!(after < 0.025 * before, "{before} before, {after} after");
+    assert!(after < 0.05 * before, "{before} before, {after} after");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::character::{MeshKind, Role, Skeleton};
 use crate::error::Result;
 use crate::face::face_landmarks::FaceLandmarks;
 use crate::face::stage::FaceBinding;
-use crate::geometry::{Weld, bounds, components, smoothstep};
+use crate::geometry::{Weld, components, smoothstep};
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
 use glam::DVec3;
@@ -144,8 +144,7 @@ pub fn part_bindings(
         .map(|vertex| anatomy.landmarks.heights.chin - figure.positions[vertex].y)
         .fold(0.0, f64::max);
     let eye_turns = face.is_some_and(FaceLandmarks::eyes_turn);
-    let small = SMALL_ON_FACE * anatomy.landmarks.heights.head_length();
-    let (face, things) = face_bindings(figure, face, &weights, &attachments, &members, small);
+    let (face, things) = face_bindings(figure, face, &weights, &attachments, &members);
     let is_skirt = skirt_vertices(figure, anatomy, weld);
     let bind =
         |(((weights, attachment), face), is_skirt)| PartBinding { weights, attachment, face, is_skirt };
@@ -155,15 +154,13 @@ pub fn part_bindings(
 }
 
 /// How each vertex takes part in the face step: with the skin or the hair as far as the head moves it, as an eyeball, or
-/// with a thing that keeps its shape; and the vertices of each such thing: what is worn on the head, and the pieces of the face
-/// no larger than `small`.
+/// with a thing that keeps its shape; and the vertices of each such thing: what is worn on the head.
 fn face_bindings(
     figure: &Figure,
     face: Option<&FaceLandmarks>,
     weights: &[PartWeights],
     attachments: &[Attachment],
     members: &[Vec<u32>],
-    small: f64,
 ) -> (Vec<FaceBinding>, Vec<Vec<u32>>) {
     let bind = |vertex: usize| {
         let of_head = weights[vertex][Part::Head as usize] + weights[vertex][Part::Hair as usize];
@@ -176,7 +173,7 @@ fn face_bindings(
         }
     };
     let mut bindings: Vec<FaceBinding> = (0..weights.len()).map(bind).collect();
-    let mut things = things_on_head(figure, members, attachments);
+    let things = things_on_head(figure, members, attachments);
     for (thing, vertices) in (0..).zip(&things) {
         vertices.iter().for_each(|&vertex| bindings[vertex as usize] = FaceBinding::Piece(thing));
     }
@@ -186,21 +183,8 @@ fn face_bindings(
             bindings[vertex as usize] = FaceBinding::Ball(side as u8);
         }
     }
-    // A flow turns the slivers of a thing of a few triangles over, and nobody sees what bends it.
-    for members in members {
-        let (low, high) = bounds(members.iter().map(|&vertex| figure.positions[vertex as usize]));
-        let is_small = (high - low).max_element() < small;
-        if is_small && members.iter().all(|&vertex| bindings[vertex as usize] == FaceBinding::Skin(1.0)) {
-            let thing = FaceBinding::Piece(things.len() as u32);
-            members.iter().for_each(|&vertex| bindings[vertex as usize] = thing);
-            things.push(members.clone());
-        }
-    }
     (bindings, things)
 }
-
-/// What is a piece of its own on the face and smaller than this, in head lengths, keeps its shape: tear glands, teeth.
-const SMALL_ON_FACE: f64 = 0.05;
 
 /// Boxes nearer to each other than this share of H are of one thing: lenses in their frame.
 const ONE_THING: f64 = 0.003;

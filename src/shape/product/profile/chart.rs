@@ -13,7 +13,7 @@ use crate::shape::Measured;
 use crate::shape::product::part::Part;
 use crate::shape::product::parts_field::PartField;
 use crate::shape::product::scales::{PartCoefficients, Scale};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// What becomes this much stubbier (its length shrinks to .7 of what its thickness does) loses all of its relief.
 const SMOOTH_FROM: f64 = 0.3;
@@ -144,10 +144,10 @@ impl Chart {
         let (frame, length) = (&self.frame, self.frame.head_length());
         let (mut now, mut lines) = (self.own.clone(), self.lines.clone());
         // Middle and half extents of a slice, in head lengths.
-        let slice = |planes: &Planes, height: f64, [middle, half]: [DVec2; 2], part: Part, is_skirt: bool| {
+        let slice = |planes: &Planes, height: f64, [middle, half]: [DVec2; 2], part: Part| {
             let to = |x: f64, z: f64| {
                 let p = planes.point(height, length * (middle + half * DVec2::new(x, z)));
-                planes.locate(relief.map(p, &part.alone(), is_skirt)).1 / length
+                planes.locate(relief.map(p, &part.alone(), false)).1 / length
             };
             let ends = |sign: f64| DVec2::new(to(sign, 0.0).x, to(0.0, sign).y);
             [(ends(1.0) + ends(-1.0)) / 2.0, (ends(1.0) - ends(-1.0)).abs() / 2.0]
@@ -157,7 +157,7 @@ impl Chart {
                 let from =
                     [DVec2::new(0.0, torso.forward[at]), DVec2::new(torso.breadth[at], torso.depth[at])];
                 let [middle, half] =
-                    slice(&frame.torso_planes(), t * frame.torso_length(), from, Part::Torso, false);
+                    slice(&frame.torso_planes(), t * frame.torso_length(), from, Part::Torso);
                 (torso.forward[at], torso.breadth[at], torso.depth[at]) = (middle.y, half.x, half.y);
             }
         }
@@ -172,20 +172,12 @@ impl Chart {
                         sign * DVec2::new(leg.outward[at], leg.forward[at]),
                         DVec2::new(leg.breadth[at], leg.depth[at]),
                     ];
-                    let to = slice(&planes, height, from, part, false);
+                    let to = slice(&planes, height, from, part);
                     middle += sign * to[0] / 2.0;
                     half += to[1] / 2.0;
                 }
                 (leg.outward[at], leg.forward[at]) = middle.into();
                 (leg.breadth[at], leg.depth[at]) = half.into();
-            }
-            if let Some(skirt) = &mut now.skirt
-                && let Some((half, forward)) = skirt.at(at)
-            {
-                let from = [DVec2::new(0.0, forward), half.into()];
-                let [middle, half] = slice(&planes, height, from, Part::Torso, true);
-                (skirt.forward[at], skirt.breadth[at], skirt.depth[at]) =
-                    (Some(middle.y), Some(half.x), Some(half.y));
             }
         }
         let sides = [Part::LeftUpperArm, Part::RightUpperArm].into_iter().enumerate();
@@ -200,7 +192,7 @@ impl Chart {
                 let mut half = DVec2::ZERO;
                 for (side, part, planes, line) in &mut arms {
                     let middle = DVec2::new(line[0][at], line[1][at]) / length;
-                    let to = slice(planes, t * frame.arm_lengths[*side], [middle, from], *part, false);
+                    let to = slice(planes, t * frame.arm_lengths[*side], [middle, from], *part);
                     (line[0][at], line[1][at]) = (length * to[0]).into();
                     half += share * to[1];
                 }
@@ -303,43 +295,32 @@ impl<'a> Grows<'a> {
         let Self { parts, frame, grown, .. } = *self;
         let scales = parts.coefficients();
         let (length, new_length) = (frame.head_length(), parts.after().head_length());
-        let hips = parts.place_torso(frame.hips).z;
-        // Of a middle that moves with the torso.
-        let placed = |planes: &Planes, height: f64, forward: f64| {
-            let p = planes.point(height, DVec2::new(0.0, length * forward));
-            (parts.place_torso(p).z - hips) / new_length
-        };
         let mut now = own.clone();
         if let Some(torso) = &mut now.torso {
-            for (at, t) in stations(TORSO_STATIONS).into_iter().enumerate() {
+            for at in 0..STATIONS {
                 torso.breadth[at] *= self.torso;
                 torso.depth[at] *= self.torso;
-                let height = t * frame.torso_length();
-                torso.forward[at] = placed(&frame.torso_planes(), height, torso.forward[at]);
             }
         }
-        let heights = stations(LEG_STATIONS).map(|t| t * frame.leg_length);
-        let planes = frame.leg_planes();
         if let Some(leg) = &mut now.leg {
-            for (at, &height) in heights.iter().enumerate() {
+            for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
                 leg.breadth[at] *= self.leg[at];
                 leg.depth[at] *= self.leg[at];
-                let side = |side: usize| {
-                    let sign = frame.signs[2 + side];
-                    let p =
-                        planes.point(height, length * DVec2::new(sign * leg.outward[at], leg.forward[at]));
-                    let limb = &frame.limbs[2 + side];
+                let outward = |side: usize| {
+                    let (sign, limb) = (frame.signs[2 + side], &frame.limbs[2 + side]);
+                    let height = t * frame.leg_length;
+                    let off = length * DVec2::new(sign * leg.outward[at], leg.forward[at]);
+                    let p = frame.leg_planes().point(height, off);
                     let to = parts.place_part(limb.parts[usize::from(p.y < limb.middle.y)], p);
-                    DVec2::new(sign * (to.x - frame.middle_x), to.z - hips)
+                    sign * (to.x - frame.middle_x)
                 };
-                (leg.outward[at], leg.forward[at]) = ((side(0) + side(1)) / (2.0 * new_length)).into();
+                leg.outward[at] = (outward(0) + outward(1)) / (2.0 * new_length);
+                leg.forward[at] *= self.torso;
             }
         }
         if let Some(skirt) = &mut now.skirt {
-            for (at, &height) in heights.iter().enumerate() {
-                skirt.breadth[at] = skirt.breadth[at].map(|x| x * self.torso);
-                skirt.depth[at] = skirt.depth[at].map(|x| x * self.torso);
-                skirt.forward[at] = skirt.forward[at].map(|forward| placed(&planes, height, forward));
+            for row in [&mut skirt.breadth, &mut skirt.depth, &mut skirt.forward] {
+                *row = row.map(|x| x.map(|x| x * self.torso));
             }
         }
         if let Some(arm) = &mut now.arm {
@@ -349,17 +330,7 @@ impl<'a> Grows<'a> {
             }
         }
         now.hand = own.hand.map(|hand| hand.map(|size| size * scales.hand / grown));
-        now.foot = own.foot.map(|[toe, heel, breadth, outward, height]| {
-            let ankle = |place: &dyn Fn(usize) -> DVec3| {
-                (2..4).map(|leg| frame.signs[leg] * (place(leg).x - frame.middle_x)).sum::<f64>() / 2.0
-            };
-            let before = ankle(&|leg| frame.limbs[leg].end) / length;
-            let after =
-                ankle(&|leg| parts.place_part(frame.limbs[leg].parts[2], frame.limbs[leg].end)) / new_length;
-            let [toe, heel, breadth, beside, height] =
-                [toe, heel, breadth, outward - before, height].map(|x| x * scales.foot / grown);
-            [toe, heel, breadth, after + beside, height]
-        });
+        now.foot = own.foot.map(|foot| foot.map(|size| size * scales.foot / grown));
         now.neck = own.neck.map(|neck| neck * scales.neck.thickness / grown);
         now.shoulder = own.shoulder * scales.shoulder_spread / grown;
         now.arm_length = own.arm_length * self.lengths[2];
@@ -368,13 +339,9 @@ impl<'a> Grows<'a> {
 
     /// Turns places of the result, in its heads, into places at rest, in heads there.
     fn back(&self, scales: &mut Scales, own: &Profile, straight: &Profile) {
-        scales.torso.shift = scales.torso.shift.map(|shift| shift / self.torso);
-        scales.leg.shift = std::array::from_fn(|at| scales.leg.shift[at] / self.leg[at]);
         scales.spread *= self.grown / self.parts.coefficients().upper_leg.thickness;
         if let (Some(own), Some(straight)) = (&own.leg, &straight.leg) {
-            for at in 0..STATIONS {
-                scales.leg.shift[at] += straight.forward[at] - own.forward[at];
-            }
+            scales.leg_shift = std::array::from_fn(|at| straight.forward[at] - own.forward[at]);
         }
         if let (Some(skirt), Some(straight)) = (&own.skirt, &straight.skirt) {
             for scale in &mut scales.skirt {

@@ -534,7 +534,7 @@ fn level_tables(
             length * at(&leg.breadth),
             length * at(&leg.depth),
             planes.origin.z + length * at(&leg.forward),
-            length * at(&scales.leg.shift),
+            length * at(&scales.leg_shift),
         ]
     };
     let of_torso = |y: f64| -> [f64; 6] {
@@ -550,7 +550,7 @@ fn level_tables(
             half(torso.map(|torso| &torso.breadth)),
             half(torso.map(|torso| &torso.depth)),
             planes.origin.z + length * torso.map_or(0.0, |torso| at(&torso.forward)),
-            length * at(&scales.torso.shift),
+            0.0,
         ]
     };
     // Below the crotch: the hull of both legs, or the skirt.

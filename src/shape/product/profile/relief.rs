@@ -47,8 +47,6 @@ const ARM_ROWS: (f64, f64) = (0.05, 1.02);
 /// middle.
 const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
 const TOP_FADE: (f64, f64) = (0.86, 1.0);
-/// A skirt's relief ends further down, in parts of the leg: above that its hem is drawn in with what is above it.
-const SKIRT_FADE: (f64, f64) = (0.25, 0.45);
 /// What moves with an arm by the first of these still has all of the torso's relief smoothed, by the second none of it. Made
 /// weights give a bust beside the arm pits .2 of the arms; where that counted, it stayed a spike.
 const OF_ARM: (f64, f64) = (0.1, 0.5);
@@ -121,7 +119,7 @@ impl Relief {
             );
             let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
                 * (1.0 - smoothstep(of_head / 0.5));
-            let (share, slope) = self.torso_share(p.y, is_skirt);
+            let (share, slope) = self.torso_share(p.y);
             if bound * share > 0.0 {
                 add(bound * share, DVec3::Y * (bound * slope), map.shift(p));
             }
@@ -158,14 +156,12 @@ impl Relief {
     }
 
     /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
-    fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
+    fn torso_share(&self, y: f64) -> (f64, f64) {
         let torso_length = self.frame.torso_length();
         let t = (y - self.frame.heights.crotch) / torso_length;
-        let to_leg = self.frame.leg_length / torso_length;
-        let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
         let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
-        let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
-        let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
+        let (bottom, bottom_slope) = smoothstep_slope((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
+        let slope = bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
         ((1.0 - top) * (1.0 - bottom), slope / torso_length)
     }
@@ -177,9 +173,7 @@ impl Body<'_> {
         let ends = (-TORSO_BOTTOM * self.frame.leg_length, self.frame.torso_length());
         let shoulders = planes.locate(self.frame.shoulders);
         let bone = |height: f64| DVec2::new(0.0, shoulders.1.y * (height / shoulders.0).max(0.0));
-        let mut map = self.reaches(Chain::Trunk, planes, ends, bone)?;
-        mirror(&mut map.reaches);
-        Some(map)
+        self.reaches(Chain::Trunk, planes, ends, bone)
     }
 
     fn leg_reaches(&self, side: usize) -> Option<RadiusMap> {
@@ -252,14 +246,4 @@ fn scaled(
     };
     let scales = even.iter().zip(&raw).map(around).collect();
     RadiusMap { scales, ..map.clone() }
-}
-
-/// Makes left and right the same: ray 0 runs to the left.
-fn mirror(rings: &mut [Ring]) {
-    for ring in rings {
-        let other = *ring;
-        for (ray, reach) in ring.iter_mut().enumerate() {
-            *reach = 0.5 * (other[ray] + other[(RAYS / 2 + RAYS - ray) % RAYS]);
-        }
-    }
 }

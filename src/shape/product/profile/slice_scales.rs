@@ -11,15 +11,8 @@ const MOST: f64 = 2.4;
 const MOST_OF_FOOT: f64 = 0.6;
 /// A hand this much broader than thick lies flat; one as broad as thick is a fist.
 const FLAT_HAND: f64 = 1.3;
-/// The part of a line's own curve that goes over to the wanted one's.
-const CURVE: f64 = 0.8;
-/// A leg's (the torso's) middle moves forward or back by at most this part of its half depth.
-const LEG_CURVE_MOST: f64 = 0.35;
-const BELLY_MOST: f64 = 0.2;
 /// The distance between legs is that of this part of them from the crotch; below it is stance.
 const SPREAD_UP_TO: f64 = 0.4;
-/// Legs and feet leave at least this much to the middle, in head lengths.
-const CLEAR: f64 = 0.015;
 /// The torso goes over to the skirt below it by this much, up to this place.
 const TO_SKIRT: (f64, f64) = (0.8, 0.55);
 /// A skirt keeps at least the first of these from the legs, where it had it, and the second is enough, in head lengths.
@@ -30,8 +23,6 @@ const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
 const NECK: (f64, f64) = (0.7, 1.45);
 /// Where a style's neck is thicker than this, in head lengths, and than what it is given to, it wears a scarf.
 const STYLES_NECK: f64 = 0.18;
-/// A neck that cannot be measured follows the top of the torso by this power, within this, in logarithms.
-const NECK_AFTER_TORSO: (f64, f64) = (0.5, 0.3);
 /// The slice at which a reference's thigh below its shorts is believed, and how much thicker it is this far above.
 const BELOW_SHORTS: (f64, f64) = (0.45, 0.35);
 const GROWS_OVER: f64 = 0.35;
@@ -77,19 +68,17 @@ impl Strengths {
     }
 }
 
-/// Scales of two axes by slice, and how far the middles move forward, in head lengths.
+/// Scales of two axes by slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceScales {
     /// Across.
     pub breadth: Row,
     /// Forward.
     pub depth: Row,
-    /// Forward.
-    pub shift: Row,
 }
 
 impl SliceScales {
-    const NONE: Self = Self { breadth: [1.0; STATIONS], depth: [1.0; STATIONS], shift: [0.0; STATIONS] };
+    const NONE: Self = Self { breadth: [1.0; STATIONS], depth: [1.0; STATIONS] };
 }
 
 /// How a skirt is scaled, at those slices of the legs where there is one.
@@ -116,7 +105,9 @@ pub struct Scales {
     pub leg: SliceScales,
     /// How far each leg moves outward.
     pub spread: f64,
-    /// Without shift.
+    /// How far the middles of the legs' slices move forward: none, until [`Chart::slices`](super::Chart::slices) straightens them.
+    pub leg_shift: Row,
+    /// From shoulder to wrist.
     pub arm: SliceScales,
     /// Along the arm, from shoulder to wrist.
     pub arm_length: f64,
@@ -166,7 +157,7 @@ impl Scales {
                 got
             })
         });
-        SliceScales { breadth, depth, ..SliceScales::NONE }
+        SliceScales { breadth, depth }
     }
 }
 
@@ -177,6 +168,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         torso: SliceScales::NONE,
         leg: SliceScales::NONE,
         spread: 0.0,
+        leg_shift: [0.0; STATIONS],
         arm: SliceScales::NONE,
         arm_length: 1.0,
         hand: [1.0; 3],
@@ -191,12 +183,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
     result.torso = result.extents("torso", torso, &torso_row, most);
     result.arm = result.extents("arms", arms, &strengths.arm, most);
     if let (Some(own), Some(wanted)) = (&own.leg, &wanted.leg) {
-        let (most, row) = (LEG_CURVE_MOST, &strengths.leg);
-        result.leg.shift = curve(&wanted.forward, &own.forward, &own.depth, most, row);
         result.spread = spread(&result.leg, own, wanted, strengths.spread);
-    }
-    if let (Some(own), Some(wanted)) = (&own.torso, &wanted.torso) {
-        result.torso.shift = curve(&wanted.forward, &own.forward, &own.depth, BELLY_MOST, &torso_row);
     }
     skirt(&mut result, own);
     if arms.is_some() {
@@ -219,16 +206,9 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
     if let (Some(own), Some(wanted)) = (own.foot, wanted.foot) {
         foot(&mut result, own, wanted, strengths);
     }
-    result.neck = match (own.neck, wanted.neck) {
-        (Some(own), Some(wanted)) => {
-            (wanted.min(own.max(STYLES_NECK)) / own).clamp(NECK.0, NECK.1).powf(strengths.neck)
-        }
-        _ => {
-            let top = [result.torso.breadth, result.torso.depth].map(|row| row[STATIONS - 1]);
-            let (power, most) = NECK_AFTER_TORSO;
-            (0.5 * power * (top[0] * top[1]).ln()).clamp(-most, most).exp()
-        }
-    };
+    if let (Some(own), Some(wanted)) = (own.neck, wanted.neck) {
+        result.neck = (wanted.min(own.max(STYLES_NECK)) / own).clamp(NECK.0, NECK.1).powf(strengths.neck);
+    }
     result
 }
 
@@ -275,19 +255,6 @@ pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
     bare
 }
 
-/// How far each middle moves, so that the line through them is curved like the wanted one; its ends stay.
-fn curve(wanted: &Row, own: &Row, own_depth: &Row, most: f64, strengths: &Row) -> Row {
-    let off_chord = |row: &Row, station: usize| {
-        let t = station as f64 / (STATIONS - 1) as f64;
-        row[station] - (row[0] + t * (row[STATIONS - 1] - row[0]))
-    };
-    std::array::from_fn(|station| {
-        let most = most * own_depth[station];
-        let shift = CURVE * (off_chord(wanted, station) - off_chord(own, station));
-        strengths[station] * shift.clamp(-most, most)
-    })
-}
-
 /// How far each leg moves outward whose slices are scaled by `leg`.
 fn spread(leg: &SliceScales, own: &LegProfile, wanted: &LegProfile, strength: f64) -> f64 {
     let upper = (0..STATIONS).filter(|&station| station_at(LEG_STATIONS, station) < SPREAD_UP_TO);
@@ -298,13 +265,7 @@ fn spread(leg: &SliceScales, own: &LegProfile, wanted: &LegProfile, strength: f6
     let delta = strength * mean(&|station| wanted.outward[station] - own.outward[station]);
     let roomy = gap(own).max((gap(own) + gap(wanted)) / 2.0);
     let most = mean(&|station| new_breadth(station) - own.outward[station]) + roomy;
-    let (mut least, mut touching) = (f64::NEG_INFINITY, 0.0_f64);
-    for station in 0..STATIONS {
-        least = least.max(CLEAR + new_breadth(station) - own.outward[station]);
-        // Where own legs are nearer than what is to be left, they stay that near.
-        touching = touching.max(CLEAR + own.breadth[station] - own.outward[station]);
-    }
-    delta.min(most).max(least - touching)
+    delta.min(most)
 }
 
 /// A skirt follows the hips, stays outside of the legs, and is no further from them than it was, or halfway from there to
@@ -369,9 +330,8 @@ fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Streng
     let (before, after) = (sizes(own), sizes(wanted));
     let most = strengths.limit(MOST_OF_FOOT);
     let [length, breadth] = [0, 1].map(|axis| soft_scale(after[axis], before[axis], strength, most));
-    let room = (own[3] + result.spread - CLEAR).max(own[2]) / own[2];
     let toes = (wanted[4] / own[4]).clamp(1.0, 1.8).powf(strength);
-    result.foot = [length, breadth.min(room), toes];
+    result.foot = [length, breadth, toes];
     for axis in 0..2 {
         result.note("feet", after[axis], before[axis], strength, result.foot[axis]);
     }
