@@ -102,7 +102,8 @@ namespace SuperDeform.Editor.Tests
             VrmAvatar free = VrmAvatar.Vrm1("rogue");
             free.Root.GetComponent<Vrm10Instance>().SpringBone.Springs.Clear();
             VRM10SpringBoneCollider whole = VrmAvatar.Find(free.Convert(), "spine").GetComponents<VRM10SpringBoneCollider>()[1];
-            Assert.That(yielding, Is.InRange(0.8f * whole.Radius, 0.99f * whole.Radius));
+            // By a fifth at most, but for rounding.
+            Assert.That(yielding, Is.InRange(0.79999f * whole.Radius, 0.99f * whole.Radius));
             Assert.That(free.Findings.Exists(finding => finding.Key == "collider_yields" || finding.Key == "spring_in_collider"), Is.False);
         }
 
