@@ -523,11 +523,12 @@ fn no_head_folds_and_hardly_a_triangle_turns_over() {
                     (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
                 (b - a).cross(c - a) / longest.max(f64::MIN_POSITIVE)
             };
-            let (before, after) = (normal(&was), normal(&is));
-            // A sliver a thousand times as long as it is wide faces no way.
+            let (source, before, after) = (normal(figure), normal(&was), normal(&is));
+            // A sliver a thousand times as long as it is wide faces no way. Hair that lies on the shoulders of a head that stands
+            // elsewhere may lie another way, and not the wrong way round for that.
             if before.length() > 1e-3 {
                 count += 1;
-                if before.dot(after) < 0.0 {
+                if before.dot(after) < 0.0 && source.dot(after) < 0.0 {
                     turned += 1;
                     let mesh = was.mesh_starts.partition_point(|&start| start <= corners[0] as usize) - 1;
                     let at = (measured.figure.positions[corners[0] as usize] - origin) / length;
@@ -541,8 +542,8 @@ fn no_head_folds_and_hardly_a_triangle_turns_over() {
         }
     }
     println!("{turned} of {count} triangles turned over");
-    // Slivers are left as they turn: one triangle of 30,000.
-    assert!(turned * 30_000 <= count.max(30_000), "{turned} of {count} triangles turned over");
+    // Slivers are left as they turn: one triangle of 60,000.
+    assert!(turned * 60_000 <= count.max(60_000), "{turned} of {count} triangles turned over");
 }
 
 #[test]
