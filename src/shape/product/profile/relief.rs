@@ -47,6 +47,9 @@ const ARM_ROWS: (f64, f64) = (0.05, 1.02);
 /// middle.
 const BOTTOM_FADE: (f64, f64) = (0.04, 0.22);
 const TOP_FADE: (f64, f64) = (0.86, 1.0);
+/// A skirt's relief ends further down, in parts of the leg. Seen: where it does as other cloth's does, a hem stands out as a fin all
+/// around a low-poly dress of two heads.
+const SKIRT_FADE: (f64, f64) = (0.25, 0.45);
 /// What moves with an arm by the first of these still has all of the torso's relief smoothed, by the second none of it. Made
 /// weights give a bust beside the arm pits .2 of the arms; where that counted, it stayed a spike.
 const OF_ARM: (f64, f64) = (0.1, 0.5);
@@ -119,7 +122,7 @@ impl Relief {
             );
             let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
                 * (1.0 - smoothstep(of_head / 0.5));
-            let (share, slope) = self.torso_share(p.y);
+            let (share, slope) = self.torso_share(p.y, is_skirt);
             if bound * share > 0.0 {
                 add(bound * share, DVec3::Y * (bound * slope), map.shift(p));
             }
@@ -156,12 +159,14 @@ impl Relief {
     }
 
     /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
-    fn torso_share(&self, y: f64) -> (f64, f64) {
+    fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
         let torso_length = self.frame.torso_length();
         let t = (y - self.frame.heights.crotch) / torso_length;
+        let to_leg = self.frame.leg_length / torso_length;
+        let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
         let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
-        let (bottom, bottom_slope) = smoothstep_slope((-t - BOTTOM_FADE.0) / (BOTTOM_FADE.1 - BOTTOM_FADE.0));
-        let slope = bottom_slope / (BOTTOM_FADE.1 - BOTTOM_FADE.0) * (1.0 - top)
+        let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
+        let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
             - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
         ((1.0 - top) * (1.0 - bottom), slope / torso_length)
     }
