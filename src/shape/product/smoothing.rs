@@ -4,7 +4,7 @@ use super::part::{PART_COUNT, Part, PartWeights, TINY, add};
 use super::profile::chains::arm_share;
 use crate::error::Result;
 use crate::geometry::point_tree::{Near, PointTree};
-use crate::geometry::{Neighbours, ROUNDING, Weld, distinct, neighbours, slots, smoothstep, upper_median};
+use crate::geometry::{Neighbours, ROUNDING, Weld, double_area, neighbours, slots, smoothstep, upper_median};
 use crate::parallel;
 use crate::progress::Progress;
 use crate::shape::figure::Figure;
@@ -185,7 +185,7 @@ impl Sample {
 /// or a hem of few triangles over a shoe of many would be a shoe. An arm and the rest do not mix, as far as one is moved by it and
 /// the other is not: a hand on the hip must not carry the hip along. Left and right leg do not either, below the `fork`: trousers'
 /// insides lie nearer to each other than to their fronts, and what both legs move would stay in the middle while the legs step
-/// apart.
+/// apart. `frozen` vertices stay, all or none at a place.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -201,21 +201,17 @@ pub fn smooth_across(
     let sigma = SMOOTHING_WIDTH * figure.height();
     let areas = areas(figure, weld, sigma);
     // Vertices at one place are one sample and get one result.
-    let moving = distinct(
-        (0..).zip(frozen).filter(|(_, frozen)| !**frozen).map(|(vertex, _)| weld.representative[vertex]),
-    );
-    let firsts = weld.first_vertices();
-    let (samples, rows): (Vec<Sample>, Vec<PartWeights>) = moving
-        .iter()
-        .map(|&place| {
-            let first = firsts[place as usize] as usize;
-            let (p, row) = (figure.positions[first], parts[first]);
+    let (places, (samples, rows)): (Vec<u32>, (Vec<Sample>, Vec<PartWeights>)) = (0..)
+        .zip(weld.first_vertices())
+        .filter(|&(_, first)| !frozen[first as usize])
+        .map(|(place, first)| {
+            let (p, row) = (figure.positions[first as usize], parts[first as usize]);
             let arms = [0, 1].map(|side| arm_share(&row, side));
-            (Sample { p, area: areas[place as usize], arms, side: fork.side(p, &row) }, row)
+            (place, (Sample { p, area: areas[place as usize], arms, side: fork.side(p, &row) }, row))
         })
         .unzip();
     let smoothed = layer_steps(&samples, rows, sigma, threads, progress)?;
-    let sample_of = slots(weld.count, &moving);
+    let sample_of = slots(weld.count, &places);
     for (vertex, row) in parts.iter_mut().enumerate() {
         if !frozen[vertex] {
             *row = smoothed[sample_of[weld.representative[vertex] as usize] as usize];
@@ -230,9 +226,8 @@ pub fn smooth_across(
 /// The area of the triangles around each welded vertex, twice that in squares of side `unit`.
 fn areas(figure: &Figure, weld: &Weld, unit: f64) -> Vec<f32> {
     let mut areas = vec![0.0; weld.count];
-    for corners in &figure.triangles {
-        let [a, b, c] = corners.map(|vertex| figure.positions[vertex as usize] / unit);
-        let area = (b - a).cross(c - a).length() as f32;
+    for &corners in &figure.triangles {
+        let area = (double_area(&figure.positions, corners).length() / (unit * unit)) as f32;
         corners.iter().for_each(|&vertex| areas[weld.representative[vertex as usize] as usize] += area);
     }
     areas
@@ -335,7 +330,7 @@ mod tests {
     fn legs_side_by_side_keep_to_themselves_below_the_fork() {
         let rows = legs(&Fork { crotch: 0.4, apart: 0.1 });
         let mixed = |row: usize| rows[10 * row + 5][Part::RightUpperLeg as usize];
-        // Nothing from as far below the fork as three steps over four dozen points reach; at the crotch: all that layers share.
+        // Nothing from as far below the fork as three steps over five dozen points reach; at the crotch: all that layers share.
         assert!((0..22).all(|row| mixed(row) == 0.0));
         assert!(mixed(39) > 0.2, "{}", mixed(39));
         // And no step in between: a tenth of the head's length is some ten rows.
@@ -347,8 +342,8 @@ mod tests {
 
     #[test]
     fn a_layer_counts_by_its_area_and_not_by_its_vertices() {
-        // Two sheets, one above the other and much nearer to it than the smoothing is wide: the same area in 4 and in 100 vertices
-        // for each square of that width.
+        // Two sheets, one above the other and much nearer to it than the smoothing is wide: 1 vertex for each square of that width,
+        // and as many or 4.
         let sigma = 1.0;
         let sheet = |count: usize, y: f64, part: Part| {
             let step = 4.0 / count as f64;
@@ -372,8 +367,33 @@ mod tests {
             let middle = fine * fine + coarse * coarse / 2 + coarse / 2;
             rows[middle][Part::LeftFoot as usize]
         };
-        // Halves of both, as sheets of equal area have it; by vertices the foot's would be above .8.
+        // Halves of both, as sheets of equal area have it; by vertices the foot's would be .8.
         assert!((mixed(4, 4) - 0.5).abs() < 0.02, "{}", mixed(4, 4));
         assert!((mixed(8, 4) - 0.5).abs() < 0.1, "{}", mixed(8, 4));
+    }
+
+    #[test]
+    fn what_an_arm_moves_mixes_with_the_rest_as_far_as_both_are_its() {
+        // A sheet that an arm moves over one of the trunk, each wholly, and as skin and cloth of an armpit: by a little more than
+        // half, and a little less.
+        let mixed = |shares: [f32; 2]| {
+            let mut samples = Vec::new();
+            let mut rows = Vec::new();
+            for (y, share) in [0.0, 0.01].into_iter().zip(shares) {
+                for index in 0..25 {
+                    let p = DVec3::new(f64::from(index % 5), y, f64::from(index / 5));
+                    samples.push(Sample { p, area: 1.0, arms: [share, 0.0], side: 0.0 });
+                    let mut row = [0.0; PART_COUNT];
+                    (row[Part::LeftUpperArm as usize], row[Part::Torso as usize]) = (share, 1.0 - share);
+                    rows.push(row);
+                }
+            }
+            let rows = layer_steps(&samples, rows, 1.0, 1, &mut Progress::none()).unwrap();
+            [12, 37].map(|middle| rows[middle][Part::LeftUpperArm as usize])
+        };
+        assert_eq!(mixed([1.0, 0.0]), [1.0, 0.0]);
+        // Three means, of which each has .9 of the other for one of its own, leave next to nothing of a tenth.
+        let [skin, cloth] = mixed([0.55, 0.45]);
+        assert!((skin - cloth).abs() < 1e-3, "{skin} {cloth}");
     }
 }

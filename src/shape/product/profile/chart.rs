@@ -302,15 +302,15 @@ impl<'a> Grows<'a> {
                 torso.depth[at] *= self.torso;
             }
         }
+        let planes = frame.leg_planes();
         if let Some(leg) = &mut now.leg {
             for (at, t) in stations(LEG_STATIONS).into_iter().enumerate() {
                 leg.breadth[at] *= self.leg[at];
                 leg.depth[at] *= self.leg[at];
                 let outward = |side: usize| {
                     let (sign, limb) = (frame.signs[2 + side], &frame.limbs[2 + side]);
-                    let height = t * frame.leg_length;
                     let off = length * DVec2::new(sign * leg.outward[at], leg.forward[at]);
-                    let p = frame.leg_planes().point(height, off);
+                    let p = planes.point(t * frame.leg_length, off);
                     let to = parts.place_part(limb.parts[usize::from(p.y < limb.middle.y)], p);
                     sign * (to.x - frame.middle_x)
                 };
