@@ -5,8 +5,7 @@
 //! | brows | above the lids | rise with the lids and move apart as the eyes do, as one piece; a painted frown bends back | lids that open press them to a thin line; large eyes make a stern look a cross one |
 //! | eyes | the balls' middles, or the openings' | grow, outwards and downwards, lids a little more | a child's are large and far apart; the bridge of the nose keeps its width |
 //! | face sinks | the eyes' height | down | a child's eyes are below the middle of its head |
-//! | outline | stations from chin to crown | wider, deeper, the muzzle a little back | a child's skull is round: full forehead, low occiput, a small jaw |
-//! | chin | just above its lower end | back behind the mouth, with its underside | a child's profile is convex: the chin is behind the line from nose to lips |
+//! | outline | stations from chin to crown | wider, the skull deeper, the jaw back | a child's skull is round, its profile convex: full forehead, low occiput, a small jaw |
 //! | cheeks | beside the mouth | outwards and forward | a child's face is broadest low, at its cheeks, and they are no flatter where hair hangs beside them |
 //! | occiput | where the back of the head ends | down and with it the hair line | an adult's neck shows from chin to occiput |
 //! | nose | between its tip and the face | shrinks | |
@@ -95,10 +94,8 @@ const CHILD_FRONTS: [f64; 8] = [0.385, 0.45, 0.475, 0.48, 0.485, 0.48, 0.45, 0.3
 const CHILD_BACKS: [f64; 8] = [0.14, 0.355, 0.42, 0.46, 0.48, 0.475, 0.435, 0.345];
 /// A head widens by at most this factor, and no further with its hair than this.
 const MOST_WIDENING: (f64, f64) = (1.25, 0.56);
-/// The front goes back, and comes forward, by at most this; the chin goes back behind the mouth by as much as the second.
-const MOST_FORWARD: (f64, f64) = (-0.02, 0.06);
-/// The back fills by at most this.
-const MOST_BACK: f64 = 0.20;
+/// The jaw goes back, and the front of the skull comes forward, by at most this.
+const MOST_FORWARD: f64 = 0.08;
 /// Of the stations, so many are the jaw's, and so many with the cheeks', whose front stays.
 const FACE_STATIONS: (usize, usize) = (2, 4);
 /// The face sinks between these heights; below the first nothing moves.
@@ -107,19 +104,14 @@ const ENDS: (f64, f64) = (-0.06, 1.03);
 const SINKS_AS_ONE: f64 = 0.1;
 /// So many more stations above the last one do as it does: what is tied or worn on a skull is moved evenly.
 const ABOVE: usize = 3;
-/// Nothing that is further behind the middle is of the front, or further before it of the back.
-const HALVES: f64 = 0.10;
-/// The height about which the chin goes back, and how far up and down from it that reaches: the mouth keeps its place, the
-/// underside goes with the chin.
-const CHIN: (f64, f64) = (0.02, 0.20);
 /// The middle of a cheek: aside in half widths of the face, its height, and how far behind the front beside the mouth.
 const CHEEK: [f64; 3] = [0.75, 0.18, 0.26];
 /// Its reach: the middle of the mouth stays, and so does hair beside the face.
 const CHEEK_REACH: [f64; 3] = [0.33, 0.22, 0.45];
 /// How far a cheek fills outwards, and forward.
 const CHEEK_FILLS: (f64, f64) = (0.038, 0.018);
-/// The lowest occiput, how far it sinks at most.
-const OCCIPUT: (f64, f64) = (0.22, 0.08);
+/// The lowest occiput, how far it sinks at most: further, what is tied there becomes larger.
+const OCCIPUT: (f64, f64) = (0.22, 0.14);
 /// How far below its lower end the occiput is sunk about, and how far up that reaches: to the crown, or what is tied at the
 /// back of a head becomes longer.
 const OCCIPUT_REACH: (f64, f64) = (0.04, 0.80);
@@ -368,31 +360,28 @@ fn add_outline(
         let most = (MOST_WIDENING.1 / outline.with_hair[station]).max(1.0).min(MOST_WIDENING.0);
         let wider = some((width * CHILD_WIDTHS[wide] / half_width).clamp(1.0, most).ln());
         let forward = depth * CHILD_FRONTS[station] - outline.fronts[station];
-        let is_cheek = (FACE_STATIONS.0..FACE_STATIONS.1).contains(&station);
-        let forward = if is_cheek { 0.0 } else { some(forward.clamp(MOST_FORWARD.0, MOST_FORWARD.1)) };
+        let forward = match station {
+            // The lowest has but one neighbour.
+            0 => 1.2 * forward.clamp(-MOST_FORWARD, 0.0),
+            jaw if jaw < FACE_STATIONS.0 => forward.clamp(-MOST_FORWARD, 0.0),
+            cheek if cheek < FACE_STATIONS.1 => 0.0,
+            _ => forward.clamp(0.0, MOST_FORWARD),
+        };
         let own = back_after(station);
-        let back = some((depth * CHILD_BACKS[station] - own).clamp(0.0, MOST_BACK));
+        let back = some((depth * CHILD_BACKS[station] - own).max(0.0));
         let (front_z, back_z) = (outline.middle + outline.fronts[station], outline.middle - own.max(0.1));
         rows.push(Kernel { rates: DVec3::X * (k * feature * wider), ..row });
-        let front = Kernel { shift: DVec3::Z * (k * feature * forward), ..row };
-        rows.push(front.ramp(outline.middle - HALVES, some(front_z).max(outline.middle + 0.2)));
+        // The chin's underside goes with it.
+        let front = Kernel { shift: DVec3::Z * (k * feature * some(forward)), ..row }
+            .between(2.0 * APART, 2.0 * APART);
+        rows.push(front.ramp(outline.middle, some(front_z).max(outline.middle + 0.2)));
         let back = Kernel { shift: -DVec3::Z * (k * features.skull * back), ..row };
-        rows.push(back.ramp(outline.middle + HALVES, back_z));
+        rows.push(back.ramp(outline.middle, back_z));
     }
     rows.push(occiput);
-    add_chin(rows, outline, depth, features.jaw * q);
     // A head without eyes has no cheeks: these would be jowls.
     add_cheeks(rows, outline, face, features.cheek * q * f64::from(face.eyes.is_some()));
     rows.retain(|row| row.shift != DVec3::ZERO || row.rates != DVec3::ZERO);
-}
-
-/// The chin goes as far behind the mouth as a child's, and its underside with it.
-fn add_chin(rows: &mut Vec<Kernel>, outline: &Outline, depth: f64, k: f64) {
-    let [chin, mouth, ..] = outline.fronts;
-    let behind = chin - mouth - depth * (CHILD_FRONTS[0] - CHILD_FRONTS[1]);
-    let row = Kernel::level(CHIN.0, CHIN.1, CHIN.1);
-    let shift = -DVec3::Z * (k * some(behind.clamp(0.0, MOST_FORWARD.1)));
-    rows.push(Kernel { shift, ..row }.ramp(outline.middle, outline.middle + some(chin).max(0.2)));
 }
 
 /// Both cheeks fill beside the mouth.
