@@ -1,17 +1,18 @@
 //! Kernels: what one row of the head's table does to space, and the flow that all of them make together.
 //!
 //! Points follow the sum of the kernels' velocities for one unit of time. A flow of a smooth field does not fold, however
-//! strong, where added displacements do. A point's way is cut into [`STEPS`] straight pieces (the midpoint rule), each of
-//! which moves a point by less than its distance from its neighbours (see the tests), so each is one to one, and so is the
-//! way. The places after whole pieces are kept for each vertex: youth is how far along them it goes.
+//! strong, where added displacements do. A point's way is cut into [`STEPS`] straight pieces, each with the velocity in its
+//! middle, which is foretold from the piece before: second order, for one velocity a piece. In none of them do neighbours
+//! meet (see the tests). The places after whole pieces are kept for each vertex: youth is how far along them it goes.
 
 use super::dual::{Dual, Number, step};
 use glam::{DMat3, DVec3};
-use std::cell::Cell;
 use wide::f64x2;
 
 /// Straight pieces of a point's way.
-pub const STEPS: usize = 12;
+pub const STEPS: usize = 6;
+/// The time that one takes.
+const STEP: f64 = 1.0 / STEPS as f64;
 
 /// As long as a way stays as near as this to a place, in head lengths, it follows the kernels alone that act so near: it is the
 /// same, found sooner.
@@ -191,8 +192,8 @@ fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 
 /// Kernels ready for points to follow them.
 #[derive(Clone, Debug, Default)]
 pub struct Follower {
-    /// At the start and in the middle of each piece of the way.
-    moments: Vec<[Vec<Kernel>; 2]>,
+    /// In the middle of each piece of the way.
+    moments: [Vec<Kernel>; STEPS],
     /// The lowest and highest place that each kernel reaches in all of these.
     reaches: Vec<(DVec3, DVec3)>,
 }
@@ -200,12 +201,12 @@ pub struct Follower {
 impl Follower {
     /// Ready to follow `kernels`, in the order of the table.
     pub fn new(kernels: &[Kernel]) -> Self {
-        let at = |time: f64| kernels.iter().map(|kernel| kernel.at(time)).collect();
-        let start = |piece: usize| piece as f64 / STEPS as f64;
-        let moments: Vec<[Vec<Kernel>; 2]> =
-            (0..STEPS).map(|piece| [at(start(piece)), at(start(piece) + 0.5 / STEPS as f64)]).collect();
+        let moments: [Vec<Kernel>; STEPS] = std::array::from_fn(|piece| {
+            let time = (piece as f64 + 0.5) * STEP;
+            kernels.iter().map(|kernel| kernel.at(time)).collect()
+        });
         let reach = |kernel: usize| {
-            let all = moments.iter().flatten().map(|kernels| kernels[kernel].reach());
+            let all = moments.iter().map(|kernels| kernels[kernel].reach());
             all.reduce(|(low, high), (l, h)| (low.min(l), high.max(h))).unwrap_or_default()
         };
         let reaches = (0..kernels.len()).map(reach).collect();
@@ -221,29 +222,19 @@ impl Follower {
     /// The ways of two points, sooner than one after the other the nearer they are to each other. Kernels that are not near have
     /// nothing to add.
     pub fn ways(&self, points: [DVec3; 2]) -> [Way; 2] {
-        let mut places = points;
         let mut near = self.near(points);
-        let ways: [[DVec3; 2]; STEPS] = std::array::from_fn(|piece| {
-            let at = [0, 1, 2].map(|axis| f64x2::new(places.map(|p| p[axis])));
-            let by_near = |(about, near): &([DVec3; 2], Vec<usize>)| {
-                let is_left = Cell::new(false);
-                let velocity = |kernels: &[Kernel], at: [f64x2; 3]| {
-                    let leaves = |of: usize| (point(at, of) - about[of]).abs().max_element() > NEAR;
-                    is_left.set(is_left.get() || leaves(0) || leaves(1));
-                    velocity_of(near.iter().map(|&kernel| &kernels[kernel]), at)
-                };
-                let next = self.piece(at, piece, 1.0, velocity);
-                (!is_left.get()).then_some(next)
-            };
-            let next = by_near(&near).or_else(|| {
-                near = self.near(places);
-                by_near(&near)
-            });
-            let next = next.unwrap_or_else(|| self.piece(at, piece, 1.0, velocity));
-            places = [point(next, 0), point(next, 1)];
-            places
-        });
-        [0, 1].map(|of| ways.map(|places| places[of]))
+        let velocity = |kernels: &[Kernel], at: [f64x2; 3]| {
+            let now = [0, 1].map(|of| point(at, of));
+            let (about, _) = &near;
+            if (0..2).any(|of| (now[of] - about[of]).abs().max_element() > NEAR) {
+                near = self.near(now);
+            }
+            velocity_of(near.1.iter().map(|&kernel| &kernels[kernel]), at)
+        };
+        let start = [0, 1, 2].map(|axis| f64x2::new(points.map(|p| p[axis])));
+        let mut ways = [[DVec3::ZERO; STEPS]; 2];
+        self.pieces(start, 1.0, velocity, |piece, p| (0..2).for_each(|of| ways[of][piece] = point(p, of)));
+        ways
     }
 
     /// The kernels that may act where all coordinates are within [`NEAR`] of those of one of `points`.
@@ -265,32 +256,32 @@ impl Follower {
         Dual::split(self.follow(Dual::point(p), youth))
     }
 
-    fn follow<N: Number>(&self, mut place: [N; 3], youth: f64) -> [N; 3] {
-        let (whole, rest) = pieces(youth);
-        for piece in 0..whole {
-            place = self.piece(place, piece, 1.0, velocity);
-        }
-        if rest > 0.0 { self.piece(place, whole, rest, velocity) } else { place }
+    fn follow<N: Number>(&self, mut p: [N; 3], youth: f64) -> [N; 3] {
+        self.pieces(p, youth, velocity, |_, next| p = next);
+        p
     }
 
-    fn piece<N: Number>(
+    /// Gives the places after the pieces of the way of `p` up to the share `youth`, the last of them cut off there.
+    fn pieces<N: Number>(
         &self,
-        p: [N; 3],
-        piece: usize,
-        share: f64,
-        velocity: impl Fn(&[Kernel], [N; 3]) -> [N; 3],
-    ) -> [N; 3] {
-        let [start, middle] = &self.moments[piece];
-        const STEP: f64 = 1.0 / STEPS as f64;
-        let first = velocity(start, p);
-        let half = [0, 1, 2].map(|axis| p[axis] + first[axis] * (0.5 * STEP));
-        let moves = velocity(middle, half);
-        [0, 1, 2].map(|axis| p[axis] + moves[axis] * (share * STEP))
+        mut p: [N; 3],
+        youth: f64,
+        mut velocity: impl FnMut(&[Kernel], [N; 3]) -> [N; 3],
+        mut give: impl FnMut(usize, [N; 3]),
+    ) {
+        let (whole, rest) = pieces(youth);
+        let after = |p: [N; 3], moves: [N; 3], time: f64| [0, 1, 2].map(|axis| p[axis] + moves[axis] * time);
+        let mut moves = velocity(&self.moments[0], p);
+        for piece in 0..whole + usize::from(rest > 0.0) {
+            moves = velocity(&self.moments[piece], after(p, moves, 0.5 * STEP));
+            p = after(p, moves, STEP * if piece < whole { 1.0 } else { rest });
+            give(piece, p);
+        }
     }
 
-    /// The slope of the velocity at the start of a piece.
+    /// The slope of the velocity in the middle of a piece.
     pub fn slope(&self, p: DVec3, piece: usize) -> DMat3 {
-        Dual::split(velocity(&self.moments[piece][0], Dual::point(p))).1
+        Dual::split(velocity(&self.moments[piece], Dual::point(p))).1
     }
 }
 

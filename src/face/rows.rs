@@ -79,6 +79,11 @@ const ADULT_WITHOUT_EYES: f64 = 0.6;
 /// An adult's nose stands out by more than the first number and is narrower than the second.
 const ADULT_NOSE: (f64, f64) = (0.09, 0.1);
 
+/// True where there is nothing to do: the face is as young as a drawn one, and need not smile.
+pub fn stays(face: &FaceLandmarks, smile: f64) -> bool {
+    adultness(face) == 0.0 && smile == 0.0
+}
+
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
     let Some(pair) = face.pair() else { return ADULT_WITHOUT_EYES };
@@ -236,7 +241,7 @@ fn less(share: f64) -> f64 {
 }
 
 impl Rows {
-    /// The rows that make `face` as young as `aim`; none for a face that is.
+    /// The rows that make `face` as young as `aim`.
     ///
     /// - `face`, `outline`: in head lengths, as they are before.
     /// - `features`: what is asked of each feature.
@@ -249,9 +254,6 @@ impl Rows {
         smile: f64,
     ) -> Self {
         let q = adultness(face);
-        if q == 0.0 && smile == 0.0 {
-            return Self::default();
-        }
         let pair = face.pair();
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {

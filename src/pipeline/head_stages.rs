@@ -5,7 +5,7 @@ use crate::character::MeshKind;
 use crate::error::{Result, Warning};
 use crate::face::head::HeadFrame;
 use crate::face::outline::{Outline, rounded};
-use crate::face::rows::{FaceAim, Rows};
+use crate::face::rows::{FaceAim, Rows, stays};
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::{Mapped, bounds};
@@ -84,6 +84,9 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let place = head_map(&measured, &field, frame);
     // A head that is only moved or made larger has the same face, to the bit.
     let face = face.mapped(|p| place(p).to_array().map(rounded).into());
+    if stays(&face, view.options.smile) {
+        return Ok(None);
+    }
     let shape = view.style().shape();
     let eyes = shape.and_then(|shape| shape.face).map(|face| (face.eye_size, face.eye_height));
     let head = shape.and_then(|shape| shape.proportions.as_ref()).map(Proportions::head_width);
