@@ -1,8 +1,8 @@
 //! The outline of a head and how it stands over the trunk, measured on the deformed body before the face step.
 
 use super::head::HeadFrame;
-use super::raster::{DepthMap, Window};
-use glam::{DVec2, DVec3};
+use crate::geometry::whole::{ceil, floor};
+use glam::DVec3;
 
 /// How many heights an outline is read at.
 pub const STATIONS: usize = 8;
@@ -12,8 +12,10 @@ pub const APART: f64 = 0.12;
 pub const HEIGHTS: [f64; STATIONS] = [0.04, 0.16, 0.28, 0.40, 0.52, 0.64, 0.76, 0.88];
 /// The station that tells how deep the head is as a whole, above the ears; from there on up hair is part of the outline.
 pub const DEEPEST: usize = 4;
-/// Squares of the looks at a head, in head lengths.
-const SQUARE: f64 = 0.01;
+/// A head is cut at heights so far apart, in head lengths.
+const LEVEL: f64 = 0.01;
+/// The lowest and the highest of them.
+const LEVELS: (f64, f64) = (-0.06, 1.0);
 /// The front is read so far aside: beside the nose.
 const BESIDE_NOSE: (f64, f64) = (0.06, 0.11);
 /// The back is read within the first, and no further behind what is so far aside than the third number: there a tail
@@ -21,6 +23,8 @@ const BESIDE_NOSE: (f64, f64) = (0.06, 0.11);
 const BACK: (f64, f64, f64) = (0.09, 0.20, 0.15);
 /// The chest and the trunk's back are read below the shoulder line, so far.
 const TRUNK: (f64, f64) = (-0.305, -0.025);
+/// Between these heights the chin is where it is foremost.
+const CHIN: (f64, f64) = (0.02, 0.12);
 /// The occiput ends where the head is less deep than this part of what it is at [`DEEPEST`].
 const OCCIPUT: f64 = 0.9;
 /// See [`rounded`].
@@ -77,17 +81,14 @@ impl Outline {
         shoulder_line: f64,
     ) -> Option<Self> {
         let points: Vec<DVec3> = points.iter().map(|&p| frame.to_unit(p)).collect();
-        let behind: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.y, -p.z)).collect();
-        let window = Window { low: DVec2::new(-0.66, -0.06), high: DVec2::new(0.66, 1.08), step: SQUARE };
-        let bare = DepthMap::new(&points, &sources.bare, window);
+        let bare = Levels::new(LEVELS).with(&points, &sources.bare);
         let hair = bare.clone().with(&points, &sources.hair);
-        let back = DepthMap::new(&behind, &sources.bare, window).with(&behind, &sources.hair);
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
-        let near = |y: f64| (y - 1.5 * SQUARE, y + 1.5 * SQUARE);
-        let front_at = |y: f64| front(y).furthest(near(y), BESIDE_NOSE);
+        let near = |y: f64| (y - LEVEL, y + LEVEL);
+        let front_at = |y: f64| front(y).most(near(y), |level| level.beside_nose);
         let back_at = |y: f64| {
-            let middle = back.furthest(near(y), (0.0, BACK.0))?;
-            let beside = back.furthest(near(y), (BACK.0, BACK.1)).unwrap_or(middle);
+            let middle = hair.most(near(y), |level| level.behind)?;
+            let beside = hair.most(near(y), |level| level.behind_aside).unwrap_or(middle);
             Some(middle.min(beside + BACK.2))
         };
         let y = HEIGHTS[DEEPEST];
@@ -95,18 +96,17 @@ impl Outline {
         let middle = rounded(0.5 * (deepest_front - deepest_back));
         let deep = deepest_back + middle;
         let from = |depth: Option<f64>, origin: f64| depth.map_or(f64::NAN, |depth| rounded(depth - origin));
-        let half_width = |map: &DepthMap, y: f64| map.reach(map.row(y), f64::NAN, |_| true);
-        let steps = (1..50).map(|step| y - SQUARE * f64::from(step));
+        let half_width = |levels: &Levels, y: f64| from(levels.most((y, y), |level| level.half_width), 0.0);
+        let steps = (1..50).map(|step| y - LEVEL * f64::from(step));
         let is_deep = |y: &f64| back_at(*y).is_some_and(|depth| depth + middle > OCCIPUT * deep);
         let occiput = steps.take_while(is_deep).last().unwrap_or(y);
 
         let shoulder_line = (shoulder_line - frame.origin.y) / frame.length;
-        let rows = (shoulder_line + TRUNK.0, shoulder_line + TRUNK.1);
-        let window =
-            Window { low: DVec2::new(-BACK.0, rows.0), high: DVec2::new(BACK.0, rows.1), step: SQUARE };
-        let chest = DepthMap::new(&points, &sources.trunk, window).furthest(rows, (0.0, BACK.0));
-        let trunk_back = DepthMap::new(&behind, &sources.trunk, window).furthest(rows, (0.0, BACK.0));
-        let chin = bare.furthest((0.02, 0.12), (0.0, BACK.0));
+        let heights = (shoulder_line + TRUNK.0, shoulder_line + TRUNK.1);
+        let trunk = Levels::new(heights).with(&points, &sources.trunk);
+        let chest = trunk.most(heights, |level| level.before);
+        let trunk_back = trunk.most(heights, |level| level.behind);
+        let chin = bare.most(CHIN, |level| level.before);
         Some(Self {
             frame,
             shoulder_line,
@@ -119,6 +119,90 @@ impl Outline {
             overhang: chest.zip(chin).map_or(0.0, |(chest, chin)| rounded(chin - chest)),
             behind: trunk_back.map_or(f64::INFINITY, |trunk| rounded(deepest_back - trunk)),
         })
+    }
+}
+
+/// Where planes one above the other cut a mesh.
+#[derive(Clone)]
+struct Levels {
+    low: f64,
+    levels: Vec<Level>,
+}
+
+/// How far what is cut there reaches: aside, forwards and backwards within `BESIDE_NOSE` and `BACK`; `NEG_INFINITY` where nothing is.
+#[derive(Clone, Copy)]
+struct Level {
+    half_width: f64,
+    beside_nose: f64,
+    before: f64,
+    behind: f64,
+    behind_aside: f64,
+}
+
+impl Levels {
+    fn new((low, high): (f64, f64)) -> Self {
+        let none = f64::NEG_INFINITY;
+        let level =
+            Level { half_width: none, beside_nose: none, before: none, behind: none, behind_aside: none };
+        Self { low, levels: vec![level; ((high - low) / LEVEL).round() as usize + 1] }
+    }
+
+    /// The level nearest to a height.
+    fn level(&self, y: f64) -> usize {
+        (((y - self.low) / LEVEL).round().max(0.0) as usize).min(self.levels.len() - 1)
+    }
+
+    /// The most `of` the levels between two heights; `None` where nothing is.
+    fn most(&self, (low, high): (f64, f64), of: impl Fn(&Level) -> f64) -> Option<f64> {
+        let levels = &self.levels[self.level(low)..=self.level(high)];
+        let most = levels.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        (most > f64::NEG_INFINITY).then_some(most)
+    }
+
+    /// The same with more triangles.
+    fn with(mut self, points: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        for corners in triangles {
+            let [a, b, c] = corners.map(|corner| points[corner as usize]);
+            let (least, most) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+            let first = ceil((least - self.low) / LEVEL).max(0.0) as usize;
+            let end = (floor((most - self.low) / LEVEL) + 1.0).max(0.0) as usize;
+            for index in first..end.min(self.levels.len()) {
+                let y = self.low + LEVEL * index as f64;
+                let cut =
+                    |[a, b]: [DVec3; 2]| ((a.y < y) != (b.y < y)).then(|| a.lerp(b, (y - a.y) / (b.y - a.y)));
+                let mut ends = [[a, b], [b, c], [c, a]].into_iter().filter_map(cut);
+                if let (Some(one), Some(other)) = (ends.next(), ends.next()) {
+                    self.levels[index].add(one, other);
+                }
+            }
+        }
+        self
+    }
+}
+
+impl Level {
+    fn add(&mut self, a: DVec3, b: DVec3) {
+        self.half_width = self.half_width.max(a.x.abs()).max(b.x.abs());
+        for side in [1.0, -1.0] {
+            // The least and the greatest depth of what is so far aside.
+            let depths = |low: f64, high: f64| {
+                let (from, to) = if side * a.x < side * b.x { (a, b) } else { (b, a) };
+                let (x, across) = (side * from.x, side * (to.x - from.x));
+                let at = |wanted: f64| from.z + (to.z - from.z) * (wanted - x) / across;
+                let first = if x < low { at(low) } else { from.z };
+                let last = if x + across > high { at(high) } else { to.z };
+                (x <= high && x + across >= low).then(|| (first.min(last), first.max(last)))
+            };
+            if let Some((_, front)) = depths(BESIDE_NOSE.0, BESIDE_NOSE.1) {
+                self.beside_nose = self.beside_nose.max(front);
+            }
+            if let Some((back, front)) = depths(0.0, BACK.0) {
+                (self.before, self.behind) = (self.before.max(front), self.behind.max(-back));
+            }
+            if let Some((back, _)) = depths(BACK.0, BACK.1) {
+                self.behind_aside = self.behind_aside.max(-back);
+            }
+        }
     }
 }
 

@@ -135,14 +135,6 @@ impl DepthMap {
         seen.map(|column| self.middle(column, row).x.abs()).fold(least, f64::max)
     }
 
-    /// The greatest depth that is shown between two heights, where |x| is between those of `aside`.
-    pub fn furthest(&self, heights: (f64, f64), aside: (f64, f64)) -> Option<f64> {
-        let rows = self.row(heights.0)..=self.row(heights.1);
-        let is_there = |&column: &usize| (aside.0..=aside.1).contains(&self.middle(column, 0).x.abs());
-        let depths = |column: usize| rows.clone().filter_map(move |row| self.depth(column, row));
-        (0..self.columns).filter(is_there).flat_map(depths).max_by(f64::total_cmp)
-    }
-
     /// The depth that the square around `p` shows, where it lies in the window.
     pub fn depth_at(&self, p: DVec2) -> Option<f64> {
         self.square(p).and_then(|(column, row)| self.depth(column, row))

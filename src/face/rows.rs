@@ -174,7 +174,7 @@ const BROWS_APART: f64 = 0.5;
 
 /// No row that shrinks leaves less than this part of a volume together with the rows before it: what is painted there would be
 /// pressed.
-const LEAST_VOLUME: f64 = 0.28;
+const LEAST_VOLUME: f64 = 0.30;
 /// The nose's reach: aside in half widths and half distances of the eyes, down and up of what lies there, at least,
 /// behind in what it stands out by and head lengths.
 const NOSE_REACH: [f64; 6] = [1.9, 0.85, 0.085, 0.92, 1.5, 0.08];

@@ -9,11 +9,10 @@ use crate::face::rows::{FaceAim, Rows, stays};
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::{Mapped, bounds};
-use crate::options::Stage;
+use crate::options::{FaceCurve, Stage};
 use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, Field, Finish};
-use crate::shape::heights::Heights;
 use crate::shape::measured::is_of_head;
 use crate::shape::placement::{Body, renewed};
 use crate::shape::product::anatomy::Proportions;
@@ -46,9 +45,15 @@ pub fn head_map(measured: &Measured, field: &Field, frame: HeadFrame) -> impl Fn
 }
 
 /// The box of the face map: around what the head moves, in body or face meshes, as the body leaves it; in product mode as
-/// high as from chin to crown.
+/// high as from chin to crown, and as wide as nothing for a curve, which asks for heights alone.
 pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
-    let (body, measured, offsets) = (view.body()?, view.measured()?, view.offsets()?);
+    let (body, measured) = (view.body()?, view.measured()?);
+    let ends = body.parts().map(|parts| [parts.after().chin, parts.after().crown]);
+    if let (Some(ends), FaceCurve::F4 | FaceCurve::F2) = (ends, view.options.face_curve) {
+        let [low, high] = ends.map(|y| DVec3::Y * y);
+        return Ok(Some((low, high)));
+    }
+    let offsets = view.offsets()?;
     let figure = &*measured.figure;
     let placement = body.placement(figure, &body.field, &offsets, view.threads());
     let is_of_face = |&vertex: &usize| {
@@ -58,8 +63,7 @@ pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     let vertices = (0..figure.positions.len()).filter(is_of_face);
     let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex)));
     let around = (low.x <= high.x).then_some((low, high));
-    let Some(parts) = body.parts() else { return Ok(around) };
-    let Heights { chin, crown, .. } = *parts.after();
+    let Some([chin, crown]) = ends else { return Ok(around) };
     let reach = 0.5 * (crown - chin);
     let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
     Ok(Some((low.with_y(chin), high.with_y(crown))))

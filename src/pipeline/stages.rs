@@ -106,7 +106,7 @@ stages! {
     // The head.
 
     /// The box of the face map, around what the head moves.
-    face_box: Option<(DVec3, DVec3)> = head_stages::face_box, Face 1, [];
+    face_box: Option<(DVec3, DVec3)> = head_stages::face_box, Face 1, [face_curve];
     /// The younger face of Eqs. 12 and 13, as far as it does not fold.
     face: Face = squash_face, Face 0, [mode, stage, face_squash, face_curve];
     /// The head from front and side, and how it stands over the trunk (D30).
