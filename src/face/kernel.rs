@@ -190,7 +190,7 @@ fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 
 }
 
 /// Kernels ready for points to follow them.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Follower {
     /// In the middle of each piece of the way.
     moments: [Vec<Kernel>; STEPS],
