@@ -12,7 +12,7 @@ use superdeform::internals::face::face_landmarks::{Ears, FaceLandmarks, Nose};
 use superdeform::internals::face::head::HeadFrame;
 use superdeform::internals::face::kernel::{Follower, Kernel, STEPS, along};
 use superdeform::internals::face::outline::{HEIGHTS, Outline, OutlineSources};
-use superdeform::internals::face::rows::{FaceAim, Rows, stays};
+use superdeform::internals::face::rows::{FaceAim, Rows};
 use superdeform::internals::face::seat::Seat;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
@@ -173,7 +173,7 @@ fn follower(face: &FaceLandmarks) -> Follower {
 }
 
 #[test]
-fn a_way_is_the_same_whether_the_kernels_that_are_far_away_are_asked_or_not() {
+fn a_way_of_two_points_at_once_is_that_of_each() {
     let pull = Kernel {
         shift: DVec3::new(0.1, -0.7, 0.4),
         ..Kernel::about(DVec3::new(0.2, 0.9, 0.1), DVec3::splat(0.5))
@@ -186,11 +186,12 @@ fn a_way_is_the_same_whether_the_kernels_that_are_far_away_are_asked_or_not() {
         for step in 0..12 * 16 * 12 {
             let p = DVec3::new(f64::from(step % 12), f64::from(step / 12 % 16), f64::from(step / 192));
             let p = p * 0.13 - DVec3::new(0.75, 0.45, 0.75);
-            let way = follower.way(p);
-            // What is placed is moved by all kernels.
+            let other = p + 0.3 * DVec3::new(p.y, p.z, p.x);
+            let [way, other_way] = follower.ways([p, other]);
             for piece in [1, STEPS / 2 - 1, STEPS - 1] {
                 let youth = (piece + 1) as f64 / STEPS as f64;
                 assert_eq!(way[piece], follower.place(p, youth), "{p} after {youth}");
+                assert_eq!(other_way[piece], follower.place(other, youth), "{other} after {youth}");
             }
             furthest = furthest.max(way[STEPS - 1].distance(p));
         }
@@ -443,7 +444,8 @@ fn a_kept_way_is_the_flow_for_any_youth() {
 #[test]
 fn a_face_with_a_childs_eyes_stays() {
     // e = sqrt(.05 * .017) * 2.5 = .073 > .067.
-    assert!(stays(&adult(2.5), 0.0) && !stays(&adult(2.5), 0.5) && !stays(&adult(1.0), 0.0));
+    assert!(rows(&adult(2.5)).kernels.is_empty());
+    assert!(!rows(&adult(1.0)).kernels.is_empty());
 }
 
 #[test]

@@ -14,10 +14,6 @@ pub const STEPS: usize = 6;
 /// The time that one takes.
 const STEP: f64 = 1.0 / STEPS as f64;
 
-/// As long as a way stays as near as this to a place, in head lengths, it follows the kernels alone that act so near: it is the
-/// same, found sooner.
-const NEAR: f64 = 0.05;
-
 /// Where a point is after each piece of its way, in head lengths.
 pub type Way = [DVec3; STEPS];
 
@@ -96,27 +92,21 @@ impl Kernel {
         now
     }
 
-    /// The lowest and the highest place that it may act at.
-    fn reach(&self) -> (DVec3, DVec3) {
-        (self.centre - self.per_low.recip(), self.centre + self.per_high.recip())
-    }
-
-    /// True where both have the same [`Kernel::within`], as the rows of a station of the outline have.
-    fn reaches_as(&self, other: &Self) -> bool {
-        let reach = |kernel: &Self| (kernel.centre, kernel.per_low, kernel.per_high, kernel.plateau);
-        reach(self) == reach(other)
-    }
-
     /// How much of it acts at `p`, 0 to 1.
     pub fn weight<N: Number>(&self, p: [N; 3]) -> N {
-        self.ramped(self.within(p), p)
+        let within = self.within(p);
+        if self.ramp[1] == 0.0 || !within.is_above(0.0) {
+            return within;
+        }
+        within * step((p[2] - self.ramp[0]) * self.ramp[1])
     }
 
     /// How much of it would act at `p` without its ramp.
     fn within<N: Number>(&self, p: [N; 3]) -> N {
         let mut square = N::constant(0.0);
-        for (axis, &along) in p.iter().enumerate() {
-            let share = (along - self.centre[axis]).by_side(self.per_low[axis], self.per_high[axis]);
+        // Heights tell most of them apart.
+        for axis in [1, 0, 2] {
+            let share = (p[axis] - self.centre[axis]).by_side(self.per_low[axis], self.per_high[axis]);
             square = square + share * share;
             if !square.is_below(1.0) {
                 return N::constant(0.0);
@@ -131,10 +121,6 @@ impl Kernel {
             return N::constant(1.0);
         };
         square.below(1.0, within, N::constant(0.0))
-    }
-
-    fn ramped<N: Number>(&self, within: N, p: [N; 3]) -> N {
-        if self.ramp[1] == 0.0 { within } else { within * step((p[2] - self.ramp[0]) * self.ramp[1]) }
     }
 
     /// Adds its share of what is `left` to the velocity at `p`, where it acts by `weight`.
@@ -165,23 +151,10 @@ fn bell<N: Number>(t: N) -> N {
 
 /// The velocity of all `kernels` at `p`.
 pub fn velocity<N: Number>(kernels: &[Kernel], p: [N; 3]) -> [N; 3] {
-    velocity_of(kernels.iter(), p)
-}
-
-fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 3]) -> [N; 3] {
     let mut velocity = [N::constant(0.0); 3];
     let mut left = N::constant(1.0);
-    let mut last: Option<(&Kernel, N)> = None;
     for kernel in kernels {
-        let within = match last {
-            Some((other, within)) if kernel.reaches_as(other) => within,
-            _ => kernel.within(p),
-        };
-        last = Some((kernel, within));
-        if !within.is_above(0.0) {
-            continue;
-        }
-        kernel.add(kernel.ramped(within, p), p, &mut left, &mut velocity);
+        kernel.add(kernel.weight(p), p, &mut left, &mut velocity);
         if !left.is_above(0.0) {
             break;
         }
@@ -194,23 +167,16 @@ fn velocity_of<'a, N: Number>(kernels: impl Iterator<Item = &'a Kernel>, p: [N; 
 pub struct Follower {
     /// In the middle of each piece of the way.
     moments: [Vec<Kernel>; STEPS],
-    /// The lowest and highest place that each kernel reaches in all of these.
-    reaches: Vec<(DVec3, DVec3)>,
 }
 
 impl Follower {
     /// Ready to follow `kernels`, in the order of the table.
     pub fn new(kernels: &[Kernel]) -> Self {
-        let moments: [Vec<Kernel>; STEPS] = std::array::from_fn(|piece| {
+        let moments = std::array::from_fn(|piece| {
             let time = (piece as f64 + 0.5) * STEP;
             kernels.iter().map(|kernel| kernel.at(time)).collect()
         });
-        let reach = |kernel: usize| {
-            let all = moments.iter().map(|kernels| kernels[kernel].reach());
-            all.reduce(|(low, high), (l, h)| (low.min(l), high.max(h))).unwrap_or_default()
-        };
-        let reaches = (0..kernels.len()).map(reach).collect();
-        Self { moments, reaches }
+        Self { moments }
     }
 
     /// The way of `p`.
@@ -219,31 +185,12 @@ impl Follower {
         way
     }
 
-    /// The ways of two points, sooner than one after the other the nearer they are to each other. Kernels that are not near have
-    /// nothing to add.
+    /// The ways of two points, sooner than one after the other the nearer they are to each other.
     pub fn ways(&self, points: [DVec3; 2]) -> [Way; 2] {
-        let mut near = self.near(points);
-        let velocity = |kernels: &[Kernel], at: [f64x2; 3]| {
-            let now = [0, 1].map(|of| point(at, of));
-            let (about, _) = &near;
-            if (0..2).any(|of| (now[of] - about[of]).abs().max_element() > NEAR) {
-                near = self.near(now);
-            }
-            velocity_of(near.1.iter().map(|&kernel| &kernels[kernel]), at)
-        };
         let start = [0, 1, 2].map(|axis| f64x2::new(points.map(|p| p[axis])));
         let mut ways = [[DVec3::ZERO; STEPS]; 2];
-        self.pieces(start, 1.0, velocity, |piece, p| (0..2).for_each(|of| ways[of][piece] = point(p, of)));
+        self.pieces(start, 1.0, |piece, p| (0..2).for_each(|of| ways[of][piece] = point(p, of)));
         ways
-    }
-
-    /// The kernels that may act where all coordinates are within [`NEAR`] of those of one of `points`.
-    fn near(&self, points: [DVec3; 2]) -> ([DVec3; 2], Vec<usize>) {
-        let is_near = |&kernel: &usize| {
-            let (low, high) = self.reaches[kernel];
-            points.iter().any(|p| (p + NEAR).cmpge(low).all() && (p - NEAR).cmple(high).all())
-        };
-        (points, (0..self.reaches.len()).filter(is_near).collect())
     }
 
     /// Where `p` is after the share `youth` of its way.
@@ -257,18 +204,12 @@ impl Follower {
     }
 
     fn follow<N: Number>(&self, mut p: [N; 3], youth: f64) -> [N; 3] {
-        self.pieces(p, youth, velocity, |_, next| p = next);
+        self.pieces(p, youth, |_, next| p = next);
         p
     }
 
     /// Gives the places after the pieces of the way of `p` up to the share `youth`, the last of them cut off there.
-    fn pieces<N: Number>(
-        &self,
-        mut p: [N; 3],
-        youth: f64,
-        mut velocity: impl FnMut(&[Kernel], [N; 3]) -> [N; 3],
-        mut give: impl FnMut(usize, [N; 3]),
-    ) {
+    fn pieces<N: Number>(&self, mut p: [N; 3], youth: f64, mut give: impl FnMut(usize, [N; 3])) {
         let (whole, rest) = pieces(youth);
         let after = |p: [N; 3], moves: [N; 3], time: f64| [0, 1, 2].map(|axis| p[axis] + moves[axis] * time);
         let mut moves = velocity(&self.moments[0], p);

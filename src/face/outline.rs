@@ -85,10 +85,10 @@ impl Outline {
         let hair = bare.clone().with(&points, &sources.hair);
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
         let near = |y: f64| (y - LEVEL, y + LEVEL);
-        let front_at = |y: f64| front(y).most(near(y), |level| level.beside_nose);
+        let front_at = |y: f64| front(y).most(near(y), Of::Front);
         let back_at = |y: f64| {
-            let middle = hair.most(near(y), |level| level.behind)?;
-            let beside = hair.most(near(y), |level| level.behind_aside).unwrap_or(middle);
+            let middle = hair.most(near(y), Of::Behind)?;
+            let beside = hair.most(near(y), Of::BehindAside).unwrap_or(middle);
             Some(middle.min(beside + BACK.2))
         };
         let y = HEIGHTS[DEEPEST];
@@ -96,7 +96,7 @@ impl Outline {
         let middle = rounded(0.5 * (deepest_front - deepest_back));
         let deep = deepest_back + middle;
         let from = |depth: Option<f64>, origin: f64| depth.map_or(f64::NAN, |depth| rounded(depth - origin));
-        let half_width = |levels: &Levels, y: f64| from(levels.most((y, y), |level| level.half_width), 0.0);
+        let half_width = |levels: &Levels, y: f64| from(levels.most((y, y), Of::HalfWidth), 0.0);
         let steps = (1..50).map(|step| y - LEVEL * f64::from(step));
         let is_deep = |y: &f64| back_at(*y).is_some_and(|depth| depth + middle > OCCIPUT * deep);
         let occiput = steps.take_while(is_deep).last().unwrap_or(y);
@@ -104,9 +104,9 @@ impl Outline {
         let shoulder_line = (shoulder_line - frame.origin.y) / frame.length;
         let heights = (shoulder_line + TRUNK.0, shoulder_line + TRUNK.1);
         let trunk = Levels::new(heights).with(&points, &sources.trunk);
-        let chest = trunk.most(heights, |level| level.before);
-        let trunk_back = trunk.most(heights, |level| level.behind);
-        let chin = bare.most(CHIN, |level| level.before);
+        let chest = trunk.most(heights, Of::Before);
+        let trunk_back = trunk.most(heights, Of::Behind);
+        let chin = bare.most(CHIN, Of::Before);
         Some(Self {
             frame,
             shoulder_line,
@@ -129,22 +129,25 @@ struct Levels {
     levels: Vec<Level>,
 }
 
-/// How far what is cut there reaches: aside, forwards and backwards within `BESIDE_NOSE` and `BACK`; `NEG_INFINITY` where nothing is.
+/// How far what is cut there reaches: aside, and in depth within the [`BANDS`]; `NEG_INFINITY` where nothing is.
+type Level = [f64; 1 + BANDS.len()];
 #[derive(Clone, Copy)]
-struct Level {
-    half_width: f64,
-    beside_nose: f64,
-    before: f64,
-    behind: f64,
-    behind_aside: f64,
+enum Of {
+    HalfWidth,
+    Front,
+    Before,
+    Behind,
+    BehindAside,
 }
+
+/// How far aside depths are looked at, and whether for the greatest (1) or the least (-1).
+const BANDS: [(f64, f64, f64); 4] =
+    [(BESIDE_NOSE.0, BESIDE_NOSE.1, 1.0), (0.0, BACK.0, 1.0), (0.0, BACK.0, -1.0), (BACK.0, BACK.1, -1.0)];
 
 impl Levels {
     fn new((low, high): (f64, f64)) -> Self {
-        let none = f64::NEG_INFINITY;
-        let level =
-            Level { half_width: none, beside_nose: none, before: none, behind: none, behind_aside: none };
-        Self { low, levels: vec![level; ((high - low) / LEVEL).round() as usize + 1] }
+        let count = ((high - low) / LEVEL).round() as usize + 1;
+        Self { low, levels: vec![[f64::NEG_INFINITY; 1 + BANDS.len()]; count] }
     }
 
     /// The level nearest to a height.
@@ -152,10 +155,10 @@ impl Levels {
         (((y - self.low) / LEVEL).round().max(0.0) as usize).min(self.levels.len() - 1)
     }
 
-    /// The most `of` the levels between two heights; `None` where nothing is.
-    fn most(&self, (low, high): (f64, f64), of: impl Fn(&Level) -> f64) -> Option<f64> {
+    /// The most `of` this that levels between two heights have; `None` where nothing is.
+    fn most(&self, (low, high): (f64, f64), of: Of) -> Option<f64> {
         let levels = &self.levels[self.level(low)..=self.level(high)];
-        let most = levels.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let most = levels.iter().map(|level| level[of as usize]).fold(f64::NEG_INFINITY, f64::max);
         (most > f64::NEG_INFINITY).then_some(most)
     }
 
@@ -172,7 +175,7 @@ impl Levels {
                     |[a, b]: [DVec3; 2]| ((a.y < y) != (b.y < y)).then(|| a.lerp(b, (y - a.y) / (b.y - a.y)));
                 let mut ends = [[a, b], [b, c], [c, a]].into_iter().filter_map(cut);
                 if let (Some(one), Some(other)) = (ends.next(), ends.next()) {
-                    self.levels[index].add(one, other);
+                    add(&mut self.levels[index], one, other);
                 }
             }
         }
@@ -180,27 +183,19 @@ impl Levels {
     }
 }
 
-impl Level {
-    fn add(&mut self, a: DVec3, b: DVec3) {
-        self.half_width = self.half_width.max(a.x.abs()).max(b.x.abs());
-        for side in [1.0, -1.0] {
-            // The least and the greatest depth of what is so far aside.
-            let depths = |low: f64, high: f64| {
-                let (from, to) = if side * a.x < side * b.x { (a, b) } else { (b, a) };
-                let (x, across) = (side * from.x, side * (to.x - from.x));
-                let at = |wanted: f64| from.z + (to.z - from.z) * (wanted - x) / across;
-                let first = if x < low { at(low) } else { from.z };
-                let last = if x + across > high { at(high) } else { to.z };
-                (x <= high && x + across >= low).then(|| (first.min(last), first.max(last)))
-            };
-            if let Some((_, front)) = depths(BESIDE_NOSE.0, BESIDE_NOSE.1) {
-                self.beside_nose = self.beside_nose.max(front);
-            }
-            if let Some((back, front)) = depths(0.0, BACK.0) {
-                (self.before, self.behind) = (self.before.max(front), self.behind.max(-back));
-            }
-            if let Some((back, _)) = depths(BACK.0, BACK.1) {
-                self.behind_aside = self.behind_aside.max(-back);
+/// Adds the line from `a` to `b`.
+fn add(level: &mut Level, a: DVec3, b: DVec3) {
+    let [half_width, depths @ ..] = level;
+    *half_width = half_width.max(a.x.abs()).max(b.x.abs());
+    for side in [1.0, -1.0] {
+        let (from, to) = if side * a.x < side * b.x { (a, b) } else { (b, a) };
+        let (x, end) = (side * from.x, side * to.x);
+        let depth = |at: f64| from.z + (to.z - from.z) * (at - x) / (end - x);
+        for (most, (low, high, sign)) in depths.iter_mut().zip(BANDS) {
+            if x <= high && end >= low {
+                let first = if x < low { depth(low) } else { from.z };
+                let last = if end > high { depth(high) } else { to.z };
+                *most = most.max(sign * first).max(sign * last);
             }
         }
     }

@@ -76,14 +76,6 @@ impl FaceAim {
 const ADULT_EYES: (f64, f64) = (0.048, 0.060);
 /// How adult a head without eyes is taken to be.
 const ADULT_WITHOUT_EYES: f64 = 0.6;
-/// An adult's nose stands out by more than the first number and is narrower than the second.
-const ADULT_NOSE: (f64, f64) = (0.09, 0.1);
-
-/// True where there is nothing to do: the face is as young as a drawn one, and need not smile.
-pub fn stays(face: &FaceLandmarks, smile: f64) -> bool {
-    adultness(face) == 0.0 && smile == 0.0
-}
-
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
     let Some(pair) = face.pair() else { return ADULT_WITHOUT_EYES };
@@ -125,8 +117,6 @@ const OCCIPUT_REACH: (f64, f64) = (0.04, 0.80);
 const MOST_SINKING: f64 = 0.07;
 /// Eyes grow by at most this: the first behind lids, whose folds and shades grow with them; else the second.
 const MOST_GROWTH: (f64, f64) = (1.40, 1.65);
-/// Of the face's half width, both eyes and the bridge between them fill at most this.
-const ROOM: f64 = 0.84;
 /// The bridge of the nose keeps this part of its width.
 const BRIDGE: f64 = 0.9;
 /// A ball that shows more than this part of itself has no lids.
@@ -241,7 +231,7 @@ fn less(share: f64) -> f64 {
 }
 
 impl Rows {
-    /// The rows that make `face` as young as `aim`.
+    /// The rows that make `face` as young as `aim`; none for a face that is.
     ///
     /// - `face`, `outline`: in head lengths, as they are before.
     /// - `features`: what is asked of each feature.
@@ -254,6 +244,9 @@ impl Rows {
         smile: f64,
     ) -> Self {
         let q = adultness(face);
+        if q == 0.0 && smile == 0.0 {
+            return Self::default();
+        }
         let pair = face.pair();
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {
@@ -265,11 +258,8 @@ impl Rows {
             add_outline(&mut rest, outline, face, aim, features, q);
         }
         if let Some(nose) = &face.nose {
-            let is_adult =
-                pair.is_some() || nose.protrusion() > ADULT_NOSE.0 && nose.half_width < ADULT_NOSE.1;
-            let k = if pair.is_some() { q } else { f64::from(is_adult) };
-            add_nose(&mut rest, nose, pair, features.nose * k);
-            add_mouth(&mut rest, nose, front(face), features.jaw * q * f64::from(is_adult), smile);
+            add_nose(&mut rest, nose, pair, features.nose * q);
+            add_mouth(&mut rest, nose, front(face), features.jaw * q, smile);
         }
         if let Some(ears) = &face.ears {
             add_ear(&mut rest, ears, features.ear * q);
@@ -457,15 +447,12 @@ struct Growth {
 impl Growth {
     fn of(eyes: &Eyes, pair: Pair, face: &FaceLandmarks, aim: &FaceAim, k: f64, rest: &[Kernel]) -> Self {
         let (a, d) = (pair.half_width, pair.half_distance);
-        let edge = [face.half_width, pair.height, front(face) - 0.1];
-        let most = ROOM * face.half_width * (velocity(rest, edge)[0] / face.half_width).exp();
         let wide = (velocity(rest, [d, pair.height, front(face)])[0] / d).exp();
         let gap = BRIDGE * (d - a);
         let behind_lids = eyes.iter().all(|eye| eye.half_height() < BARE * eye.radius());
         let most_growth = if behind_lids { MOST_GROWTH.0 } else { MOST_GROWTH.1 };
-        let wanted = 1.0 + k * ((aim.eye_size / pair.size()).clamp(1.0, most_growth) - 1.0);
-        let wider = wanted.min((most - gap) / (2.0 * a)).max(1.0);
-        let half_distance = (d * wide).max((gap + wider * a).min(most - wider * a));
+        let wider = 1.0 + k * ((aim.eye_size / pair.size()).clamp(1.0, most_growth) - 1.0);
+        let half_distance = (d * wide).max(gap + wider * a);
         let middle = 0.5 * (eyes[0].middle().x + eyes[1].middle().x);
         Self { pair, k, wider, half_distance, middle }
     }

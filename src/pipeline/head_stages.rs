@@ -5,7 +5,7 @@ use crate::character::MeshKind;
 use crate::error::{Result, Warning};
 use crate::face::head::HeadFrame;
 use crate::face::outline::{Outline, rounded};
-use crate::face::rows::{FaceAim, Rows, stays};
+use crate::face::rows::{FaceAim, Rows};
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
 use crate::geometry::{Mapped, bounds};
@@ -49,9 +49,8 @@ pub fn head_map(measured: &Measured, field: &Field, frame: HeadFrame) -> impl Fn
 pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     let (body, measured) = (view.body()?, view.measured()?);
     let ends = body.parts().map(|parts| [parts.after().chin, parts.after().crown]);
-    if let (Some(ends), FaceCurve::F4 | FaceCurve::F2) = (ends, view.options.face_curve) {
-        let [low, high] = ends.map(|y| DVec3::Y * y);
-        return Ok(Some((low, high)));
+    if let (Some([chin, crown]), FaceCurve::F4 | FaceCurve::F2) = (ends, view.options.face_curve) {
+        return Ok(Some((DVec3::Y * chin, DVec3::Y * crown)));
     }
     let offsets = view.offsets()?;
     let figure = &*measured.figure;
@@ -62,11 +61,8 @@ pub fn face_box(view: &View) -> Result<Option<(DVec3, DVec3)>> {
     };
     let vertices = (0..figure.positions.len()).filter(is_of_face);
     let (low, high) = bounds(vertices.map(|vertex| placement.vertex(vertex)));
-    let around = (low.x <= high.x).then_some((low, high));
-    let Some([chin, crown]) = ends else { return Ok(around) };
-    let reach = 0.5 * (crown - chin);
-    let (low, high) = around.unwrap_or((DVec3::splat(-reach), DVec3::splat(reach)));
-    Ok(Some((low.with_y(chin), high.with_y(crown))))
+    let [bottom, top] = ends.unwrap_or([low.y, high.y]);
+    Ok((low.x <= high.x).then_some((low.with_y(bottom), high.with_y(top))))
 }
 
 /// The outline of the head as body and face map leave it, and how it stands over the trunk.
@@ -88,9 +84,6 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let place = head_map(&measured, &field, frame);
     // A head that is only moved or made larger has the same face, to the bit.
     let face = face.mapped(|p| place(p).to_array().map(rounded).into());
-    if stays(&face, view.options.smile) {
-        return Ok(None);
-    }
     let shape = view.style().shape();
     let eyes = shape.and_then(|shape| shape.face).map(|face| (face.eye_size, face.eye_height));
     let head = shape.and_then(|shape| shape.proportions.as_ref()).map(Proportions::head_width);
