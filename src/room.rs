@@ -17,7 +17,7 @@ pub enum Of {
     /// A vertex of the body whose weights are carried over.
     Skin = 1300,
     /// A vertex of the head that goes through the young face.
-    Young = 340,
+    Young = 260,
     /// A triangle that clothes or hair are kept outside of.
     Outside = 245,
 }
