@@ -93,6 +93,10 @@ const CHILD_BACKS: [f64; 8] = [0.14, 0.355, 0.42, 0.46, 0.48, 0.475, 0.435, 0.34
 const MOST_WIDENING: (f64, f64) = (1.25, 0.56);
 /// The jaw goes back, and the front of the skull comes forward, by at most this.
 const MOST_FORWARD: f64 = 0.08;
+/// The back fills by at most this: above a tail that is taken for the back of a head, a crown gets a corner by more.
+const MOST_BACK: f64 = 0.20;
+/// What fills the back begins so far before the middle: a crown that ends close behind it gets a corner otherwise.
+const BEFORE: f64 = 0.10;
 /// Of the stations, so many are the jaw's, and so many with the cheeks', whose front stays.
 const FACE_STATIONS: (usize, usize) = (2, 4);
 /// The face sinks between these heights; below the first nothing moves.
@@ -351,7 +355,9 @@ fn add_outline(
         let half_width = outline.half_widths[wide].min(beside_ear.map_or(f64::INFINITY, |ears| ears.root));
         let most = (MOST_WIDENING.1 / outline.with_hair[station]).max(1.0).min(MOST_WIDENING.0);
         let wider = some((width * CHILD_WIDTHS[wide] / half_width).clamp(1.0, most).ln());
-        let forward = depth * CHILD_FRONTS[station] - outline.fronts[station];
+        // Against the forehead: a tail that is taken for the back of a head moves its middle.
+        let before_forehead = |fronts: &[f64; STATIONS]| fronts[station] - fronts[DEEPEST];
+        let forward = depth * before_forehead(&CHILD_FRONTS) - before_forehead(&outline.fronts);
         let forward = match station {
             // The lowest has but one neighbour.
             0 => 1.2 * forward.clamp(-MOST_FORWARD, 0.0),
@@ -360,7 +366,7 @@ fn add_outline(
             _ => forward.clamp(0.0, MOST_FORWARD),
         };
         let own = back_after(station);
-        let back = some((depth * CHILD_BACKS[station] - own).max(0.0));
+        let back = some((depth * CHILD_BACKS[station] - own).clamp(0.0, MOST_BACK));
         let (front_z, back_z) = (outline.middle + outline.fronts[station], outline.middle - own.max(0.1));
         rows.push(Kernel { rates: DVec3::X * (k * feature * wider), ..row });
         // The chin's underside goes with it.
@@ -368,7 +374,7 @@ fn add_outline(
             .between(2.0 * APART, 2.0 * APART);
         rows.push(front.ramp(outline.middle, some(front_z).max(outline.middle + 0.2)));
         let back = Kernel { shift: -DVec3::Z * (k * features.skull * back), ..row };
-        rows.push(back.ramp(outline.middle, back_z));
+        rows.push(back.ramp(outline.middle + BEFORE, back_z));
     }
     rows.push(occiput);
     // A head without eyes has no cheeks: these would be jowls.
