@@ -11,8 +11,6 @@ use wide::f64x2;
 
 /// Straight pieces of a point's way.
 pub const STEPS: usize = 6;
-/// The time that one takes.
-const STEP: f64 = 1.0 / STEPS as f64;
 
 /// Where a point is after each piece of its way, in head lengths.
 pub type Way = [DVec3; STEPS];
@@ -173,7 +171,7 @@ impl Follower {
     /// Ready to follow `kernels`, in the order of the table.
     pub fn new(kernels: &[Kernel]) -> Self {
         let moments = std::array::from_fn(|piece| {
-            let time = (piece as f64 + 0.5) * STEP;
+            let time = (piece as f64 + 0.5) / STEPS as f64;
             kernels.iter().map(|kernel| kernel.at(time)).collect()
         });
         Self { moments }
@@ -211,11 +209,12 @@ impl Follower {
     /// Gives the places after the pieces of the way of `p` up to the share `youth`, the last of them cut off there.
     fn pieces<N: Number>(&self, mut p: [N; 3], youth: f64, mut give: impl FnMut(usize, [N; 3])) {
         let (whole, rest) = pieces(youth);
+        let step = 1.0 / STEPS as f64;
         let after = |p: [N; 3], moves: [N; 3], time: f64| [0, 1, 2].map(|axis| p[axis] + moves[axis] * time);
         let mut moves = velocity(&self.moments[0], p);
         for piece in 0..whole + usize::from(rest > 0.0) {
-            moves = velocity(&self.moments[piece], after(p, moves, 0.5 * STEP));
-            p = after(p, moves, STEP * if piece < whole { 1.0 } else { rest });
+            moves = velocity(&self.moments[piece], after(p, moves, 0.5 * step));
+            p = after(p, moves, step * if piece < whole { 1.0 } else { rest });
             give(piece, p);
         }
     }

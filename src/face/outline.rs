@@ -14,8 +14,8 @@ pub const HEIGHTS: [f64; STATIONS] = [0.04, 0.16, 0.28, 0.40, 0.52, 0.64, 0.76, 
 pub const DEEPEST: usize = 4;
 /// A head is cut at heights so far apart, in head lengths.
 const LEVEL: f64 = 0.01;
-/// The lowest and the highest of them.
-const LEVELS: (f64, f64) = (-0.06, 1.0);
+/// They lie between these, off round numbers: at those rings and boxes have edges, which last digits move to this side or that.
+const LEVELS: (f64, f64) = (-0.0618, 1.0);
 /// The front is read so far aside: beside the nose.
 const BESIDE_NOSE: (f64, f64) = (0.06, 0.11);
 /// The back is read within the first, and no further behind what is so far aside than the third number: there a tail
@@ -84,7 +84,7 @@ impl Outline {
         let bare = Levels::new(LEVELS).with(&points, &sources.bare);
         let hair = bare.clone().with(&points, &sources.hair);
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
-        let near = |y: f64| (y - LEVEL, y + LEVEL);
+        let near = |y: f64| (y - 0.5 * LEVEL, y + 0.5 * LEVEL);
         let front_at = |y: f64| front(y).most(near(y), Of::Front);
         let back_at = |y: f64| {
             let middle = hair.most(near(y), Of::Behind)?;
@@ -96,7 +96,7 @@ impl Outline {
         let middle = rounded(0.5 * (deepest_front - deepest_back));
         let deep = deepest_back + middle;
         let from = |depth: Option<f64>, origin: f64| depth.map_or(f64::NAN, |depth| rounded(depth - origin));
-        let half_width = |levels: &Levels, y: f64| from(levels.most((y, y), Of::HalfWidth), 0.0);
+        let half_width = |levels: &Levels, y: f64| from(levels.most(near(y), Of::HalfWidth), 0.0);
         let steps = (1..50).map(|step| y - LEVEL * f64::from(step));
         let is_deep = |y: &f64| back_at(*y).is_some_and(|depth| depth + middle > OCCIPUT * deep);
         let occiput = steps.take_while(is_deep).last().unwrap_or(y);
@@ -146,13 +146,13 @@ const BANDS: [(f64, f64, f64); 4] =
 
 impl Levels {
     fn new((low, high): (f64, f64)) -> Self {
-        let count = ((high - low) / LEVEL).round() as usize + 1;
+        let count = ((high - low) / LEVEL).round() as usize;
         Self { low, levels: vec![[f64::NEG_INFINITY; 1 + BANDS.len()]; count] }
     }
 
     /// The level nearest to a height.
     fn level(&self, y: f64) -> usize {
-        (((y - self.low) / LEVEL).round().max(0.0) as usize).min(self.levels.len() - 1)
+        (((y - self.low) / LEVEL - 0.5).round().max(0.0) as usize).min(self.levels.len() - 1)
     }
 
     /// The most `of` this that levels between two heights have; `None` where nothing is.
@@ -167,10 +167,10 @@ impl Levels {
         for corners in triangles {
             let [a, b, c] = corners.map(|corner| points[corner as usize]);
             let (least, most) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-            let first = ceil((least - self.low) / LEVEL).max(0.0) as usize;
-            let end = (floor((most - self.low) / LEVEL) + 1.0).max(0.0) as usize;
+            let first = ceil((least - self.low) / LEVEL - 0.5).max(0.0) as usize;
+            let end = floor((most - self.low) / LEVEL + 0.5).max(0.0) as usize;
             for index in first..end.min(self.levels.len()) {
-                let y = self.low + LEVEL * index as f64;
+                let y = self.low + LEVEL * (index as f64 + 0.5);
                 let cut =
                     |[a, b]: [DVec3; 2]| ((a.y < y) != (b.y < y)).then(|| a.lerp(b, (y - a.y) / (b.y - a.y)));
                 let mut ends = [[a, b], [b, c], [c, a]].into_iter().filter_map(cut);

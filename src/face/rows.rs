@@ -76,6 +76,9 @@ impl FaceAim {
 const ADULT_EYES: (f64, f64) = (0.048, 0.060);
 /// How adult a head without eyes is taken to be.
 const ADULT_WITHOUT_EYES: f64 = 0.6;
+/// Without eyes, what stands out by more than the first number and is narrower than the second is a nose.
+const NOSE: (f64, f64) = (0.09, 0.1);
+
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
     let Some(pair) = face.pair() else { return ADULT_WITHOUT_EYES };
@@ -262,8 +265,11 @@ impl Rows {
             add_outline(&mut rest, outline, face, aim, features, q);
         }
         if let Some(nose) = &face.nose {
-            add_nose(&mut rest, nose, pair, features.nose * q);
-            add_mouth(&mut rest, nose, front(face), features.jaw * q, smile);
+            // Of a head without eyes a nose may be the roundness of its front.
+            let is_nose = pair.is_some() || nose.protrusion() > NOSE.0 && nose.half_width < NOSE.1;
+            let k = q * f64::from(is_nose);
+            add_nose(&mut rest, nose, pair, features.nose * k);
+            add_mouth(&mut rest, nose, front(face), features.jaw * k, smile);
         }
         if let Some(ears) = &face.ears {
             add_ear(&mut rest, ears, features.ear * q);
