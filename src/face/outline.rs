@@ -1,6 +1,7 @@
 //! The outline of a head and how it stands over the trunk, measured on the deformed body before the face step.
 
 use super::head::HeadFrame;
+use crate::geometry::cut_at;
 use crate::geometry::whole::{ceil, floor};
 use glam::DVec3;
 
@@ -131,6 +132,8 @@ struct Levels {
 
 /// How far what is cut there reaches: aside, and in depth within the [`BANDS`]; `NEG_INFINITY` where nothing is.
 type Level = [f64; 1 + BANDS.len()];
+
+/// What a level has, in its order: the half width, then the bands'.
 #[derive(Clone, Copy)]
 enum Of {
     HalfWidth,
@@ -171,11 +174,8 @@ impl Levels {
             let end = floor((most - self.low) / LEVEL + 0.5).max(0.0) as usize;
             for index in first..end.min(self.levels.len()) {
                 let y = self.low + LEVEL * (index as f64 + 0.5);
-                let cut =
-                    |[a, b]: [DVec3; 2]| ((a.y < y) != (b.y < y)).then(|| a.lerp(b, (y - a.y) / (b.y - a.y)));
-                let mut ends = [[a, b], [b, c], [c, a]].into_iter().filter_map(cut);
-                if let (Some(one), Some(other)) = (ends.next(), ends.next()) {
-                    add(&mut self.levels[index], one, other);
+                if let Some(ends) = cut_at([a, b, c], y) {
+                    add(&mut self.levels[index], ends);
                 }
             }
         }
@@ -184,7 +184,7 @@ impl Levels {
 }
 
 /// Adds the line from `a` to `b`.
-fn add(level: &mut Level, a: DVec3, b: DVec3) {
+fn add(level: &mut Level, [a, b]: [DVec3; 2]) {
     let [half_width, depths @ ..] = level;
     *half_width = half_width.max(a.x.abs()).max(b.x.abs());
     for side in [1.0, -1.0] {

@@ -348,14 +348,16 @@ fn add_outline(
     for index in 0..STATIONS + ABOVE {
         let station = index.min(STATIONS - 1);
         let y = HEIGHTS[0] + APART * index as f64;
-        let feature = match station {
-            jaw if jaw < FACE_STATIONS.0 => features.jaw,
-            cheek if cheek < FACE_STATIONS.1 => features.cheek,
-            _ => features.skull,
+        // What is asked for there, and how far its front goes back and forward.
+        let (feature, goes) = match station {
+            jaw if jaw < FACE_STATIONS.0 => (features.jaw, (-MOST_FORWARD, 0.0)),
+            cheek if cheek < FACE_STATIONS.1 => (features.cheek, (0.0, 0.0)),
+            _ => (features.skull, (0.0, MOST_FORWARD)),
         };
         let row = Kernel::level(y, (y - ENDS.0).min(2.0 * APART), 2.0 * APART);
-        // Bells half their reach apart add up to 1.5.
+        // Bells half their reach apart add up to 1.5, the lowest and its one neighbour to 1.25.
         let k = q / 1.5;
+        let lowest = if station == 0 { 1.5 / 1.25 } else { 1.0 };
         let beside_ear = face.ears.filter(|ears| ears.low.y < y && y < ears.high.y);
         let wide = station.min(DEEPEST);
         let half_width = outline.half_widths[wide].min(beside_ear.map_or(f64::INFINITY, |ears| ears.root));
@@ -364,20 +366,14 @@ fn add_outline(
         // Against the forehead: a tail that is taken for the back of a head moves its middle.
         let before_forehead = |fronts: &[f64; STATIONS]| fronts[station] - fronts[DEEPEST];
         let forward = depth * before_forehead(&CHILD_FRONTS) - before_forehead(&outline.fronts);
-        let forward = match station {
-            // The lowest has but one neighbour.
-            0 => 1.2 * forward.clamp(-MOST_FORWARD, 0.0),
-            jaw if jaw < FACE_STATIONS.0 => forward.clamp(-MOST_FORWARD, 0.0),
-            cheek if cheek < FACE_STATIONS.1 => 0.0,
-            _ => forward.clamp(0.0, MOST_FORWARD),
-        };
+        let forward = some(lowest * forward.clamp(goes.0, goes.1));
         let own = back_after(station);
         let back = some((depth * CHILD_BACKS[station] - own).clamp(0.0, MOST_BACK));
         let (front_z, back_z) = (outline.middle + outline.fronts[station], outline.middle - own.max(0.1));
         rows.push(Kernel { rates: DVec3::X * (k * feature * wider), ..row });
         // The chin's underside goes with it.
-        let front = Kernel { shift: DVec3::Z * (k * feature * some(forward)), ..row }
-            .between(2.0 * APART, 2.0 * APART);
+        let front =
+            Kernel { shift: DVec3::Z * (k * feature * forward), ..row }.between(2.0 * APART, 2.0 * APART);
         rows.push(front.ramp(outline.middle, some(front_z).max(outline.middle + 0.2)));
         let back = Kernel { shift: -DVec3::Z * (k * features.skull * back), ..row };
         rows.push(back.ramp(outline.middle + BEFORE, back_z));

@@ -36,6 +36,6 @@ pub use segment::foot;
 pub use slice::{Outline, Planes, slices};
 pub use smoothstep::{smoothstep, smoothstep_slope};
 pub use surface::{Closest, Hit, Surface, Tree};
-pub use triangle::{double_area, triangles_where};
+pub use triangle::{cut_at, double_area, triangles_where};
 pub use weld::{Neighbours, SEAM, Weld, components, neighbours, rim_edges, weld};
 pub use winding::WindingGroups;

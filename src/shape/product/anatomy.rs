@@ -8,7 +8,7 @@ use super::landmarks::{Landmarks, landmarks, middle};
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{bounds, foot, mean, range, upper_median};
+use crate::geometry::{bounds, cut_at, foot, mean, range, upper_median};
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -405,10 +405,7 @@ fn outline(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Outline> {
     let mut points: Vec<(DVec3, f64)> = Vec::new();
     for corners in triangles {
         let p = corners.map(|vertex| figure.positions[vertex as usize]);
-        let sides = [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])].into_iter();
-        let mut cuts =
-            sides.filter(|(a, b)| (a.y > y) != (b.y > y)).map(|(a, b)| a.lerp(b, (y - a.y) / (b.y - a.y)));
-        if let (Some(from), Some(to)) = (cuts.next(), cuts.next()) {
+        if let Some([from, to]) = cut_at(p, y) {
             // A long edge counts along its whole length, not at its middle alone.
             let count = f64::from(EDGE_POINTS);
             let length = from.distance(to) / count;
