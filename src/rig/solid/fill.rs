@@ -7,16 +7,16 @@
 //! Jacobson, Kavan and Sorkine-Hornung. Robust inside-outside segmentation using generalized winding numbers. SIGGRAPH
 //! 2013 (how often a surface goes round a point, however open it is).
 //!
-//! A cell is enclosed where it cannot be reached from the grid's end past all triangles; and however open they are, where rays
-//! from its middle along the axes leave what counts more often than they enter it: four of the six directions, or three of
-//! which two are opposite. So a sleeve is filled that is open at both ends, a jacket that is open in front, and a body whose
-//! scalp is left out below its hair. How much more often says how many layers are around it: two for a leg in a skirt.
+//! A cell is enclosed where rays from its middle along the axes leave what counts more often than they enter it: four of the
+//! six directions, or three of which two are opposite. So a sleeve is filled that is open at both ends, a jacket that is open
+//! in front, and a body whose scalp is left out below its hair. How much more often says how many layers are around it: two
+//! for a leg in a skirt. It is enclosed, too, where all six rays meet a wall: so a body is filled that is a hollow skin of two
+//! sides, as tools give it that wrap a surface which is open somewhere.
 
 use super::sides::sides;
 use super::{MARGIN, Solid};
 use crate::geometry::{bounds, triangles_where, weld};
 use glam::{DVec3, IVec3};
-use std::collections::VecDeque;
 
 /// Half the width of a cell, and a little for rounding: surfaces that lie between two cells touch both of them. Seen:
 /// at -30 %, vertices move up to 0.003 H; at +30 %, vertices move up to 0.001 H.
@@ -63,32 +63,29 @@ impl Solid {
                 layers[cell] = layers[cell].max(u8::from(wall.counts));
             });
         }
-        // What nobody gets to belongs to the body, unless something else encloses it by itself.
+        // What is hidden on all sides belongs to the body, unless something else encloses it by itself.
         let others = self.winding(&walls, false);
-        let unreached = self.unreached(&touches);
+        let between = self.between(&touches);
         for (cell, layers) in layers.iter_mut().enumerate() {
-            *layers = (*layers).max(u8::from(unreached[cell] && !touches[cell] && others[cell] == 0));
+            *layers = (*layers).max(u8::from(between[cell] && !touches[cell] && others[cell] == 0));
         }
         layers
     }
 
-    /// The cells that cannot be reached from the grid's end through faces of cells that are no walls.
-    fn unreached(&self, walls: &[bool]) -> Vec<bool> {
-        let mut unreached = vec![true; walls.len()];
-        unreached[0] = false;
-        // No wall is near the grid's end, so all of it hangs together. The first that came goes first: so few wait.
-        let mut open = VecDeque::from([0usize]);
-        let [x, y, z] = [IVec3::X, IVec3::Y, IVec3::Z].map(|step| self.stride(step));
-        while let Some(cell) = open.pop_front() {
-            // Beyond the end of a line in memory another one begins, at the grid's end as well.
-            for next in [x, -x, y, -y, z, -z].map(|step| cell.wrapping_add_signed(step)) {
-                if unreached.get(next) == Some(&true) && !walls[next] {
-                    unreached[next] = false;
-                    open.push_back(next);
-                }
+    /// The cells that lie between walls along each of the three axes.
+    fn between(&self, walls: &[bool]) -> Vec<bool> {
+        let mut between = vec![true; walls.len()];
+        for axis in [IVec3::X, IVec3::Y, IVec3::Z] {
+            let (step, length) = (self.stride(axis) as usize, self.size.dot(axis) as usize);
+            for line in 0..walls.len() / length {
+                let first = line % step + line / step * (step * length);
+                let line = || (0..length).map(|k| first + k * step);
+                let before = line().take_while(|&cell| !walls[cell]);
+                let beyond = line().rev().take_while(|&cell| !walls[cell]);
+                before.chain(beyond).for_each(|cell| between[cell] = false);
             }
         }
-        unreached
+        between
     }
 
     /// How many layers of those walls are around each cell that count, or that do not.
@@ -347,6 +344,35 @@ mod tests {
         let both = Solid::of_body(&shells, &triangles, 64).unwrap();
         let layers = |x: f64| both.layers(both.to_cells(DVec3::new(x, 0.5, 0.0)).round().as_ivec3());
         assert_eq!([0.0, 0.25, 0.31].map(layers), [2, 1, 0]);
+    }
+
+    /// A ball that is a hollow skin of two sides, with a hole on top, through which its inside is outside.
+    #[test]
+    fn a_hollow_skin_with_a_hole_is_filled_but_below_the_hole() {
+        let (hole, turns) = (0.2_f64.asin(), 40);
+        let polar = |turn: usize| hole + (std::f64::consts::PI - hole) * turn as f64 / f64::from(turns);
+        let outer = (0..=turns as usize).map(|turn| (0.4, polar(turn)));
+        let inner = (0..=turns as usize).rev().map(|turn| (0.37, polar(turn)));
+        let profile: Vec<(f64, f64)> = outer.chain(inner).collect();
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        for (row, &(radius, polar)) in profile.iter().enumerate() {
+            for side in 0..48 {
+                let (sin, cos) = (TAU * f64::from(side) / 48.0).sin_cos();
+                let across = radius * polar.sin();
+                positions.push(DVec3::new(across * cos, 0.5 + radius * polar.cos(), across * sin));
+                let corner = |row: usize, side: u32| (row % profile.len()) as u32 * 48 + side % 48;
+                let [a, b, c, d] =
+                    [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(down, on)| corner(row + down, side as u32 + on));
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        let solid = Solid::new(&positions, &triangles, |_| true, 0.0, 80.0).unwrap();
+        // The hole is .2 * .37 wide to its rim, and up to a cell narrower between cells that touch that: such a column holds
+        // 1 - (1 - (r / .19)^2)^1.5 of a ball of radius .19, .15 to .22.
+        assert!((0.77..0.86).contains(&ball_share(&solid)), "{}", ball_share(&solid));
+        assert!(!solid.is_in(DVec3::new(0.0, 0.5, 0.0)), "what is below the hole is filled");
+        let beside = |x: f64| solid.is_in(DVec3::new(x, 0.5, 0.0));
+        assert!([-0.3, -0.12, 0.12, 0.3].into_iter().all(beside), "what is beside the hole is not");
     }
 
     #[test]

@@ -47,8 +47,8 @@ impl Solid {
     /// The solid of `triangles`, of which a figure 1 high consists, soles at 0, whose axis is at x = `axis`; `cells` of them
     /// over the height.
     ///
-    /// All triangles are walls; filled is what those enclose, or touch, that `count` accepts by index, and what nobody
-    /// could get to from outside and the others do not enclose by themselves: see `fill`.
+    /// All triangles are walls; filled is what those enclose, or touch, that `count` accepts by index, and what is hidden
+    /// behind walls on all six sides and the others do not enclose by themselves: see `fill`.
     ///
     /// # Errors
     /// `OutOfMemory`.
