@@ -83,7 +83,7 @@ fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, 
     let within = if off(&rims[begin]) < radius { begin + 1 } else { count };
     let curve = ArmCurve::new(rims[..within].iter().rev().map(|rim| (rim.middle, 4.0 * rim.radius)), 1);
     let pit = DVec2::new((root.x - axis).abs(), root.y - radius);
-    Some((shoulder.x > axis, curve.joints(shoulder, -inwards, pit, true)))
+    Some((shoulder.x > axis, curve.joints(shoulder, -inwards, pit)))
 }
 
 /// The line through middles, from the tip inwards: the mean of differences between halves.

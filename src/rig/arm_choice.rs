@@ -30,8 +30,6 @@ const PASSES: f64 = 0.02;
 const PASSES_BY: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;
-/// What an arm costs whose armpit is not seen.
-const NO_PIT: f64 = 4.0;
 /// What an arm costs whose wrist is not seen.
 const NO_WRIST: f64 = 1.0;
 /// What an arm costs all of which lies in the air.
@@ -104,7 +102,6 @@ impl Body<'_> {
         cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
         let deep = [arm.elbow, arm.wrist].into_iter().filter(|&p| self.is_deep(p, DEEP.0 * arm.radius));
         cost += DEEP.1 * deep.count() as f64;
-        cost += if arm.pit_seen { 0.0 } else { NO_PIT };
         cost += if arm.wrist_seen { 0.0 } else { NO_WRIST };
         Candidate { arm, cost }
     }
@@ -135,7 +132,7 @@ impl Body<'_> {
     pub fn with_shoulder_of(&self, arm: &Arm, other: &Arm) -> Arm {
         let shoulder = image(other.shoulder, self.axis);
         let elbow = shoulder.lerp(arm.wrist, other.elbow_share());
-        Arm { shoulder, elbow, pit: other.pit, radius: other.radius, pit_seen: other.pit_seen, ..arm.clone() }
+        Arm { shoulder, elbow, pit: other.pit, radius: other.radius, ..arm.clone() }
     }
 }
 

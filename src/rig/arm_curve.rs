@@ -68,8 +68,6 @@ pub struct Arm {
     pub pit: DVec2,
     /// The arm's radius near the shoulder.
     pub radius: f64,
-    /// True where an arm was seen to end at a trunk.
-    pub pit_seen: bool,
     /// True where a wrist was seen, about where wrists are.
     pub wrist_seen: bool,
     /// The sections that it was read from.
@@ -80,7 +78,7 @@ impl Arm {
     /// The same arm with another shoulder joint, and the others as they show from there.
     pub fn with_shoulder(&self, shoulder: DVec3) -> Self {
         let outwards = (self.elbow - shoulder).normalize_or_zero();
-        self.curve.joints(shoulder, outwards, self.pit, self.pit_seen)
+        self.curve.joints(shoulder, outwards, self.pit)
     }
 
     /// The same arm from another shoulder joint to the same wrist.
@@ -181,6 +179,11 @@ impl ArmCurve {
         way.z / way.dot(right).max(1e-9)
     }
 
+    /// The point at a share of its length.
+    pub fn at_share(&self, share: f64) -> DVec3 {
+        self.at(share * self.whole())
+    }
+
     /// How long it is.
     fn whole(&self) -> f64 {
         self.arc[self.len() - 1]
@@ -233,7 +236,7 @@ impl ArmCurve {
     }
 
     /// The joints beyond a `shoulder`, of an arm that begins along `outwards`.
-    pub fn joints(self: &Rc<Self>, shoulder: DVec3, outwards: DVec3, pit: DVec2, pit_seen: bool) -> Arm {
+    pub fn joints(self: &Rc<Self>, shoulder: DVec3, outwards: DVec3, pit: DVec2) -> Arm {
         let begins = self.before(shoulder, outwards);
         let seen = slimmest(&self.girths(begins));
         let wrist_arc = begins + seen.unwrap_or(WRIST_BY_RATIO) * (self.whole() - begins);
@@ -242,7 +245,7 @@ impl ArmCurve {
         let (tip, radius) = (self.middles[self.len() - 1], self.radius());
         let wrist_seen = seen.is_some_and(|share| (share - WRIST_BY_RATIO).abs() <= WRIST_USUAL);
         let curve = Rc::clone(self);
-        Arm { shoulder, elbow, wrist, tip, pit, radius, pit_seen, wrist_seen, curve }
+        Arm { shoulder, elbow, wrist, tip, pit, radius, wrist_seen, curve }
     }
 }
 

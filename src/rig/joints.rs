@@ -1,14 +1,15 @@
 //! A skeleton by ray casting (Lopez and Poirel, reference 12).
 //!
-//! Rays from the front give the silhouette and its depth. The gap between the legs is followed upwards to the crotch,
-//! the arms from the fingertips inwards to the armpits, the middle line upwards from the shoulders; each joint is then
-//! centred by the depths of the rays around it. Arms that rays do not tell from what is behind or beside them are branches
-//! of the solid; of all that may be arms, the pair that is most like arms is taken. What is not seen is placed by ratio, and said so.
+//! Rays from the front give the silhouette and its depth. The gap between the legs is followed upwards to the crotch, the
+//! middle line upwards from the shoulders. Arms are branches of the solid, followed from the fingertips inwards to the
+//! armpits, as cells show them and, where the front shows them, as rays at right angles to them do; of all that may be arms,
+//! the pair that is most like arms is taken. Each joint is centred by the depths of the rays around it. What is not seen is
+//! placed by ratio, and said so.
 
 use super::arm_branch::{arms_of, raised};
 use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
 use super::arm_curve::Arm;
-use super::arms::find_arm;
+use super::arms::seen_by_rays;
 use super::candidates::{Candidates, likelihood};
 use super::front_view::{FrontView, image};
 use super::hand::pair::add_fingers;
@@ -25,16 +26,9 @@ use crate::progress::Progress;
 use crate::room::{self, Of};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// Hands are looked for above this share of the crotch's height: those that hang reach .79 of it (Winter, table 4.1: .818 -
-/// .44 of .48 H), and lower on stylised figures. Seen: at +36 %, hands of random people are cut off, four more bad joints
-/// trusted of 3840; -30 % changes no joint.
-const HANDS_ABOVE: f64 = 0.55;
-/// An arm that reaches this much further than the other one is something else. Seen: at -30 %, joints lie 0.029 H
-/// further off, 55 more by over 0.06 H, 42 more good joints doubted.
-const LONGER_ARM: f64 = 1.15;
 /// A trunk that takes more than this share of an arm's reach is wider than its shoulders are. Seen: at -30 %, 18 more
 /// good joints doubted; at +30 %, 15 more bad joints trusted.
 const STOUT: f64 = 0.33;
@@ -52,12 +46,6 @@ const NECK_NARROWS: f64 = 0.75;
 const CORE_FROM: f64 = 0.1;
 /// The trunk's core ends at the neck or, where none is seen, at this share of the way from crotch to crown.
 const CORE_BY_RATIO: f64 = 0.45;
-/// An arm is longer than so many of its radii. Seen: at +30 %, joints lie 0.020 H further off, 21 more by over 0.06 H,
-/// 21 more good joints doubted.
-const SLENDER: f64 = 4.0;
-/// An arm's shoulder lies between these shares of the way from crotch to crown. Seen: at -30 %, four more good joints
-/// doubted; at +30 %, joints lie 0.007 H further off, seven more by over 0.06 H, seven more good joints doubted.
-const SHOULDER_RANGE: (f64, f64) = (0.2, 0.95);
 /// Spine and chest lie behind the trunk's middle by this share of half its depth. Seen: ±30 % moves joints by under
 /// 0.0005 H.
 const SPINE_BACK: f64 = 0.12;
@@ -211,12 +199,10 @@ impl Search<'_> {
         let mut tried = Vec::new();
         let shoulders = |arms: &[Option<Arm>; 2]| {
             let [Some(one), Some(other)] = arms else { return None };
-            Some((0.5 * (one.shoulder.y + other.shoulder.y), one.pit_seen && other.pit_seen))
+            Some(0.5 * (one.shoulder.y + other.shoulder.y))
         };
         let share = |legs: &Legs, line: f64| (legs.crotch - view.low) / (line - view.low).max(1e-6);
-        let seen_share = |legs: &Legs, arms: &[Option<Arm>; 2]| {
-            shoulders(arms).filter(|&(_, seen)| seen).map(|(line, _)| share(legs, line))
-        };
+        let seen_share = |legs: &Legs, arms: &[Option<Arm>; 2]| Some(share(legs, shoulders(arms)?));
         let is_low = |share: f64| share < *LEGS.start();
         let is_usual = |share: f64| USUAL_LEGS.contains(&share);
         if let Some(inside) = inside
@@ -226,9 +212,8 @@ impl Search<'_> {
             tried.push(std::mem::replace(&mut legs, inside));
             arms = self.arms(&legs, &solid);
         }
-        if let Some((line, seen)) = shoulders(&arms)
-            && (matches!(legs.seen, LegGap::Unseen | LegGap::Hem)
-                || (seen && !LEGS.contains(&share(&legs, line))))
+        if let Some(line) = shoulders(&arms)
+            && (matches!(legs.seen, LegGap::Unseen | LegGap::Hem) || !LEGS.contains(&share(&legs, line)))
         {
             let ends_at_hem = legs.seen == LegGap::Hem;
             let below = legs.below_shoulders(view, line);
@@ -239,9 +224,9 @@ impl Search<'_> {
             }
         }
         // Legs that are oddly short or long under their shoulders end at the hem of something, or above the crotch.
-        let odd = shoulders(&arms).is_some_and(|(line, _)| !is_usual(share(&legs, line)));
+        let odd = shoulders(&arms).is_some_and(|line| !is_usual(share(&legs, line)));
         let pair = self.both_legs(&legs);
-        if let Some((line, _)) = shoulders(&arms) {
+        if let Some(line) = shoulders(&arms) {
             tried.push(legs.below_shoulders(view, line));
             let own = likelihood(legs.seen, share(&legs, line)).max(f64::MIN_POSITIVE);
             for other in &tried {
@@ -254,15 +239,15 @@ impl Search<'_> {
         self.put_legs(&legs, pair, odd);
 
         let radius = arms.iter().flatten().map(|arm| arm.radius).fold(MOST_RADIUS, f64::min);
-        let armpits = arms.iter().all(|arm| arm.as_ref().is_some_and(|arm| arm.pit_seen));
+        let has_arms = arms.iter().all(Option::is_some);
         self.put_arms(&legs, arms, &solid.solid);
         self.settle_sides();
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
         let line = head_line(view, shoulder_line, radius);
         self.put_middle(&legs, &line, shoulder_line);
         self.settle_sides();
-        // Two of legs, armpits and a neck make a figure, and one that does not fall stands on its feet.
-        let seen = [legs.seen != LegGap::Unseen, armpits, line.neck_seen];
+        // Two of legs, arms and a neck make a figure, and one that does not fall stands on its feet.
+        let seen = [legs.seen != LegGap::Unseen, has_arms, line.neck_seen];
         if seen.into_iter().filter(|&seen| seen).count() < 2 || self.off_balance() > BALANCE {
             for joint in self.found.joints.values_mut() {
                 joint.confidence = joint.confidence.min(DOUBTFUL);
@@ -293,27 +278,21 @@ impl Search<'_> {
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 
-    /// The arms over `legs`: of what reaches out furthest, all and below the neck, and of the branches of the solid, the pair
-    /// that is most like arms.
+    /// The arms over `legs`: of the branches of the solid the pair that is most like arms.
     fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
         let (view, solid) = (self.view, &voxels.solid);
         let body = &self.body(legs, solid);
         let (neck, given) = (body.neck, body.given);
         let mut sides: [Vec<Candidate>; 2] = Default::default();
-        for ceiling in std::iter::once(f64::INFINITY).chain(neck) {
-            for (left, arms) in [true, false].into_iter().zip(self.arms_by(legs, ceiling)) {
-                for arm in arms {
-                    let higher = raised(&arm, solid);
-                    let arms = std::iter::once(arm).chain(higher);
-                    sides[usize::from(!left)].extend(arms.map(|arm| body.candidate(arm, left, 0.0)));
-                }
-            }
-        }
         let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
         let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
         for branch in branches(voxels, view.axis, core) {
             for (left, arm) in arms_of(&branch, view.axis, |y| middle(view, y).0) {
-                sides[usize::from(!left)].push(body.candidate(arm, left, FINER));
+                let seen = seen_by_rays(view, &arm);
+                let higher = seen.as_ref().and_then(|arm| raised(arm, solid));
+                let of_rays = seen.into_iter().chain(higher).map(|arm| body.candidate(arm, left, 0.0));
+                let side = &mut sides[usize::from(!left)];
+                side.extend(of_rays.chain([body.candidate(arm, left, FINER)]));
             }
         }
         // Each with the other side's shoulder as well.
@@ -343,27 +322,6 @@ impl Search<'_> {
             self.found.candidates.set_arms(left, arms);
         }
         even_hands(best.1, given.map(|joints| joints[2].is_some()))
-    }
-
-    /// The arms that rays find on each side below a ceiling: no longer than the other side's, and as long as they are, which
-    /// an arm is that is held further out than the other one.
-    fn arms_by(&self, legs: &Legs, ceiling: f64) -> [Vec<Arm>; 2] {
-        let view = self.view;
-        let heights = HANDS_ABOVE * legs.crotch..ceiling;
-        let reach = [true, false].map(|left| reach(view, left, &heights));
-        let most = LONGER_ARM * reach[0].min(reach[1]);
-        [true, false].map(|left| {
-            let own = reach[usize::from(!left)];
-            let limits = [Some(most), Some(own).filter(|&own| own > most)];
-            let find = |most: f64| find_arm(view, left, legs.crotch, &heights, most);
-            let arms = limits.into_iter().flatten().filter_map(find);
-            let is_arm = |arm: &Arm| {
-                let share = (arm.shoulder.y - legs.crotch) / (view.high - legs.crotch).max(1e-6);
-                let length = arm.shoulder.distance(arm.elbow) + arm.elbow.distance(arm.tip);
-                (SHOULDER_RANGE.0..=SHOULDER_RANGE.1).contains(&share) && length > SLENDER * arm.radius
-            };
-            arms.filter(is_arm).collect()
-        })
     }
 
     fn at(&self, role: Role) -> DVec3 {
@@ -409,8 +367,8 @@ impl Search<'_> {
 
     fn put_arms(&mut self, legs: &Legs, arms: [Option<Arm>; 2], solid: &Solid) {
         let view = self.view;
-        if arms.iter().any(|arm| arm.as_ref().is_none_or(|arm| !arm.pit_seen)) {
-            self.warn("an arm was not seen to end at an armpit: shoulder joints and elbows placed by ratio");
+        if arms.iter().any(Option::is_none) {
+            self.warn("an arm was not seen: its joints are placed by ratio");
         } else if arms.iter().flatten().any(|arm| !arm.wrist_seen) {
             self.warn("no slim place was seen before a hand: wrists placed by ratio");
         }
@@ -425,9 +383,8 @@ impl Search<'_> {
         for (left, arm) in [true, false].into_iter().zip(arms) {
             let (joints, confidences) = match arm {
                 Some((arm, sure)) => {
-                    let seen = if arm.pit_seen { SEEN } else { RATIO };
-                    let wrist = if arm.wrist_seen { seen } else { seen.min(DOUBTFUL) };
-                    let sure = [seen.min(sure), wrist.min(sure), wrist].map(|sure| sure.min(most));
+                    let wrist = if arm.wrist_seen { SEEN } else { DOUBTFUL };
+                    let sure = [SEEN.min(sure), wrist.min(sure), wrist].map(|sure| sure.min(most));
                     ([arm.shoulder, arm.elbow, arm.wrist, arm.tip], sure)
                 }
                 None => {
@@ -582,14 +539,4 @@ fn neck_height(view: &FrontView, crotch: f64) -> Option<f64> {
     let slim = (0..widths.len()).filter(|&index| widths[index] > 0.0);
     let slimmest = slim.min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
     (share(slimmest) < NECK_NARROWS).then(|| view.grid.y(first + slimmest))
-}
-
-/// How far from the axis something reaches within a range of heights.
-fn reach(view: &FrontView, left: bool, heights: &Range<f64>) -> f64 {
-    let last = if heights.end.is_finite() { view.grid.row(heights.end) } else { view.grid.frame.rows };
-    (view.grid.row(heights.start)..last)
-        .filter_map(|row| view.side_runs(left, row).last().map(|run| run.1))
-        .max()
-        .unwrap_or(0) as f64
-        * view.cell()
 }

@@ -13,9 +13,9 @@
 //! | `front_view` | the figure seen from the front: which meshes, its axis, its runs |
 //! | `legs` | crotch, hip joints, knees, ankles, toes |
 //! | `solid` | the figure as filled cells: what it encloses, its slices, its `branches`, ways through it (`geodesic`) |
-//! | `arms` | armpits, shoulder joints, elbows, wrists of arms that rays see |
+//! | `arm_branch`, `arms` | arms as branches show them, and rays at right angles to these |
 //! | `arm_curve` | the joints that an arm's sections show |
-//! | `arm_branch`, `arm_choice` | the same of branches; which of several arms a body has |
+//! | `arm_choice` | which of several arms a body has |
 //! | `head_line` | neck, chin, crown |
 //! | `hand` | fingers: the `section` at the wrist, the `region` beyond it |
 //! | `joints` | all of these put together, sides made alike, what is not seen by ratio |
