@@ -40,7 +40,7 @@ const DEEP: (f64, f64) = (2.2, 10.0);
 /// What a side without an arm costs.
 const NO_ARM: f64 = 14.0;
 /// Rays are finer than cells: what they see goes before what costs less by no more than this.
-pub const FINER: f64 = 1.5;
+pub const FINER: f64 = 0.5;
 /// A shoulder that is the image of the other one is a guess, and agrees with it for that reason alone.
 pub const IMAGE: f64 = 2.0;
 /// An arm is looked at in so many places.
