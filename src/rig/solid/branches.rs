@@ -35,7 +35,7 @@ pub struct Rim {
 pub type Branch = Vec<Rim>;
 
 /// The branches of `solid` around a core: the filled cells next to the plane at `axis` in a range of heights. Longest
-/// first; empty where no cell is there, or where the solid is no figure's.
+/// first; empty where the solid is no figure's.
 pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> {
     if voxels.cells.len() as f64 * voxels.solid.cell.powi(3) > MOST_FILLED {
         return Vec::new();
@@ -47,7 +47,7 @@ pub fn branches(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<Branch> 
     found
 }
 
-/// How far each cell is from the core through filled cells, in thirds of a cell; `NONE` where no way leads.
+/// How far each cell is from the core through filled cells, in thirds of a cell; of what no way leads to, from the plane.
 fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
     let solid = &voxels.solid;
     let mut far = vec![NONE; voxels.cells.len()];
@@ -60,6 +60,23 @@ fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
             queue.push(0, slot);
         }
     }
+    spread(voxels, &mut far, &mut queue);
+    // What hangs together with nothing of that begins where it is nearest to the plane: arms of dolls and robots.
+    let off = |slot: u32| (solid.middle(voxels.place(slot)).x - axis).abs();
+    let mut apart: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] == NONE).collect();
+    apart.sort_by(|&one, &other| off(one).total_cmp(&off(other)));
+    for slot in apart {
+        if far[slot as usize] == NONE {
+            far[slot as usize] = (f64::from(STEPS[0]) * off(slot) / solid.cell) as u32;
+            queue.push(far[slot as usize] as usize, slot);
+            spread(voxels, &mut far, &mut queue);
+        }
+    }
+    far
+}
+
+/// Goes on from what is in the queue until all that hangs together with it is reached.
+fn spread(voxels: &Voxels, far: &mut [u32], queue: &mut Queue) {
     while let Some((at, slot)) = queue.pop() {
         if far[slot as usize] as usize != at {
             continue;
@@ -72,13 +89,12 @@ fn distances(voxels: &Voxels, axis: f64, heights: Range<f64>) -> Vec<u32> {
             }
         }
     }
-    far
 }
 
 /// The pieces of the merge tree: of each its cells, from the tip inwards.
 fn merge(voxels: &Voxels, far: &[u32]) -> Vec<Vec<u32>> {
-    // The furthest first, without what no way leads to.
-    let mut order: Vec<u32> = (0..far.len() as u32).filter(|&slot| far[slot as usize] != NONE).collect();
+    // The furthest first.
+    let mut order: Vec<u32> = (0..far.len() as u32).collect();
     order.sort_by_key(|&slot| std::cmp::Reverse(far[slot as usize]));
     let beside = |slot: u32| voxels.beside(slot).map(|(other, _)| other);
     let tips = merge_tree(far.len(), &order, beside, |_, _, _| ());
