@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// An arm less of whose length than this shows from the front is held towards it or away from it.
 const SHOWS: f64 = 0.5;
-/// Sections along an arm. One is 0.8 % of an arm, some 0.003 H: a tenth of what joints are off in the mean.
+/// Sections along an arm and inside of its branch's end. One is up to 1.4 % of an arm, some 0.006 H: a cell of the solid.
 const STATIONS: usize = 120;
 /// The shoulder joint lies straight over a point this many arm radii inside of the armpit.
 const SHOULDER_IN: f64 = 0.1;
@@ -29,9 +29,9 @@ const FORWARD: f64 = 0.4;
 const STEEPEST: f64 = 0.25;
 /// Rays go on beyond the tip by this, in heights, or the last ones would miss it.
 const BEYOND_TIP: f64 = 0.015;
-/// Rays begin inside of where the branch ends by this share of the arm's length: trunks are wider further up.
+/// Rays begin inside of where the branch ends by this share of the arm's length: a branch may end on the upper arm.
 const INSIDE: f64 = 0.7;
-/// Rays reach this share of the arm's length to either side of the arm. Seen: ±30 % moves joints by under 0.0005 H.
+/// Rays reach this share of the arm's length to either side of the arm: far enough that a trunk is seen to be wider.
 const SPAN: f64 = 0.5;
 /// Fewer sections are no arm. Seen: ±30 % changes no joint.
 const LEAST_STATIONS: usize = 12;
@@ -39,9 +39,9 @@ const LEAST_STATIONS: usize = 12;
 const SMOOTHED: usize = 3;
 
 /// The arm of a `branch` from rays at right angles to its line: its sections from the tip inwards, up to the armpit, where
-/// they have trunk in them. `None` of an arm that the front does not show.
-pub fn seen_by_rays(view: &FrontView, branch: &Arm) -> Option<Arm> {
-    let side = if branch.shoulder.x > view.axis { 1.0 } else { -1.0 };
+/// they have trunk in them or the rays begin. `None` of an arm that the front does not show.
+pub fn seen_by_rays(view: &FrontView, branch: &Arm, left: bool) -> Option<Arm> {
+    let side = if left { 1.0 } else { -1.0 };
     // Distances from the axis, and heights.
     let flat = |p: DVec3| DVec2::new(side * (p.x - view.axis), p.y);
     let [from, to] = [LINE_RANGE.0, LINE_RANGE.1].map(|share| branch.curve.at_share(share));
@@ -60,15 +60,13 @@ pub fn seen_by_rays(view: &FrontView, branch: &Arm) -> Option<Arm> {
     let (right, up) = (DVec3::new(side * along.x, along.y, 0.0), DVec3::new(-side * along.y, along.x, 0.0));
     let rows = 2 * (SPAN * length / cell).ceil() as usize;
     let begin = start - along * inside;
-    let origin = DVec3::new(view.axis + side * begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
+    let origin = view.point(left, begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
     let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
     let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
     let stations = stations(&grid, ((inside + CLEAR * length) / cell) as usize);
     let first = stations.first().filter(|_| stations.len() >= LEAST_STATIONS)?;
-    let below = if along.y < 0.0 { DVec2::new(along.y, -along.x) } else { DVec2::new(-along.y, -along.x) };
-    // Where no section has trunk in it, the arm ends where its branch does.
-    let ends = stations.len() < STATIONS;
-    let pit = if ends { flat(first.centre) + 0.5 * first.width * below } else { branch.pit };
+    let below = DVec2::new(along.y, -along.x);
+    let pit = flat(first.centre) + 0.5 * first.width * below;
     let sections = stations.iter().map(|station| (station.centre, station.width + station.depth));
     let curve = ArmCurve::new(sections, SMOOTHED);
     let radius = curve.radius();

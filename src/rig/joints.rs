@@ -292,7 +292,7 @@ impl Search<'_> {
         for branch in branches(voxels, view.axis, core) {
             let arms = arms_of(&branch, view.axis, |y| middle(view, y).0).into_iter();
             for (left, arm) in arms.filter(|(_, arm)| arm.tip.y > HANDS_ABOVE * legs.crotch) {
-                let seen = seen_by_rays(view, &arm);
+                let seen = seen_by_rays(view, &arm, left);
                 let higher = seen.as_ref().and_then(|arm| raised(arm, solid));
                 let of_rays = seen.into_iter().chain(higher).map(|arm| body.candidate(arm, left, 0.0));
                 let side = &mut sides[usize::from(!left)];
