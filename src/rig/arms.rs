@@ -13,16 +13,17 @@ const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 const SHOWS: f64 = 0.5;
 /// Sections along an arm and inside of its branch's end. One is up to 1.4 % of an arm, some 0.006 H: a cell of the solid.
 const STATIONS: usize = 120;
-/// The shoulder joint lies straight over a point this many arm radii inside of the armpit.
-const SHOULDER_IN: f64 = 0.1;
 /// The shoulder joint lies so many arm radii over the middle of the arm, which hangs from it. Seen: ±30 % moves
 /// joints by under 0.0005 H.
 const SHOULDER_OVER: f64 = 0.2;
 /// Following starts at this share of the arm, where it is clear of the trunk. Seen: ±30 % moves joints by under
 /// 0.0005 H.
 const CLEAR: f64 = 0.25;
-/// A section this much wider than the arm has trunk in it.
+/// A section this much wider than that `WITHIN` further out has trunk in it, for a sleeve widens more slowly, and one
+/// this much wider than all that is clear of the trunk.
 const TRUNK_WIDENS: f64 = 2.0;
+/// What `TRUNK_WIDENS` compares lies this share of the arm's width apart.
+const WITHIN: f64 = 0.6;
 /// An arm that runs forward by more than this, of what it runs aside, is held forward.
 const FORWARD: f64 = 0.4;
 /// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: .2 to .3 change no joint.
@@ -71,7 +72,8 @@ pub fn seen_by_rays(view: &FrontView, branch: &Arm, left: bool) -> Option<Arm> {
     let curve = ArmCurve::new(sections, SMOOTHED);
     let radius = curve.radius();
     let upper = curve.upper();
-    let inwards = (flat(upper).x - pit.x + SHOULDER_IN * radius) / along.x.max(STEEPEST);
+    // The shoulder joint lies straight over the armpit.
+    let inwards = (flat(upper).x - pit.x) / along.x.max(STEEPEST);
     let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
     let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);
     if ahead > FORWARD {
@@ -106,13 +108,22 @@ fn station(grid: &RayGrid, column: usize, middle: &mut usize) -> Option<Station>
 /// The arm's sections from the armpit to the tip, followed both ways from the column where it is clear of the trunk.
 fn stations(grid: &RayGrid, clear: usize) -> Vec<Station> {
     let mut middle = grid.frame.rows / 2;
-    let outwards: Vec<Station> =
+    let mut outwards: Vec<Station> =
         (clear..STATIONS).filter_map(|column| station(grid, column, &mut middle)).collect();
     let usual = median(&mut outwards.iter().map(|s| s.width).collect::<Vec<_>>());
+    let widest = outwards.iter().map(|s| s.width).fold(0.0, f64::max);
+    let apart = ((WITHIN * usual / grid.frame.cell).round() as usize).max(1);
+    outwards.reverse();
+    let mut stations = outwards;
     let mut middle = grid.frame.rows / 2;
-    let inwards = (0..clear).rev().map_while(|column| station(grid, column, &mut middle));
-    let mut stations: Vec<Station> = inwards.take_while(|s| s.width <= TRUNK_WIDENS * usual).collect();
+    for column in (0..clear).rev() {
+        let Some(section) = station(grid, column, &mut middle) else { break };
+        let outer = stations.get(stations.len().saturating_sub(apart)).map_or(widest, |s| s.width);
+        if section.width > TRUNK_WIDENS * outer.min(widest) {
+            break;
+        }
+        stations.push(section);
+    }
     stations.reverse();
-    stations.extend(outwards);
     stations
 }
