@@ -20,10 +20,6 @@ const LEAST_RIMS: usize = 10;
 const UPPER: f64 = 0.4;
 /// The line of the upper arm leaves out so many of the last sections, in which the shoulder begins.
 const LAST: usize = 2;
-/// An arm held forward by at least this share of its length begins in the depth of the trunk's middle.
-const FORWARD: f64 = 0.5;
-/// An arm held forward begins no further in than this, in heights.
-const FORWARD_IN: f64 = 0.12;
 /// The shoulder joint lies so many radii further in than the last section.
 const SHOULDER_IN: f64 = 0.3;
 /// An arm whose upper arm runs down by at least this share of its length may lie on the trunk further up.
@@ -34,11 +30,9 @@ const UNDER_TOP: f64 = 1.15;
 const TOP_WITHIN: f64 = 0.35;
 
 /// The arms that a branch may be, each with whether it is a left one: from its tip, or without a thing in the hand.
-///
-/// `depth` gives how far forward the trunk's middle is at a height.
-pub fn arms_of(branch: &[Rim], axis: f64, depth: impl Fn(f64) -> f64 + Copy) -> Vec<(bool, Arm)> {
+pub fn arms_of(branch: &[Rim], axis: f64) -> Vec<(bool, Arm)> {
     let limbs = distinct(WIDENS.into_iter().flat_map(|by| limbs(branch, by)));
-    limbs.into_iter().filter_map(|(start, end)| arm_of(&branch[start..end], axis, depth)).collect()
+    limbs.into_iter().filter_map(|(start, end)| arm_of(&branch[start..end], axis)).collect()
 }
 
 /// Half-open ranges of sections between jumps in thickness.
@@ -63,7 +57,7 @@ fn limbs(rims: &[Rim], widens: f64) -> Vec<(usize, usize)> {
     limbs
 }
 
-fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, Arm)> {
+fn arm_of(rims: &[Rim], axis: f64) -> Option<(bool, Arm)> {
     let count = rims.len();
     let first = (count - LAST).saturating_sub(((UPPER * count as f64) as usize).max(3));
     let upper = &rims[first..count - LAST];
@@ -72,11 +66,7 @@ fn arm_of(rims: &[Rim], axis: f64, depth: impl Fn(f64) -> f64) -> Option<(bool, 
     let mut radii: Vec<f64> = upper.iter().map(|rim| rim.radius).collect();
     let radius = median(&mut radii);
     let root = middle + inwards * (rims[count - 1].middle - middle).dot(inwards);
-    let mut shoulder = root + inwards * SHOULDER_IN * radius;
-    if inwards.z < -FORWARD {
-        let further = (depth(shoulder.y) - shoulder.z) / inwards.z;
-        shoulder += inwards * further.clamp(0.0, FORWARD_IN);
-    }
+    let shoulder = root + inwards * SHOULDER_IN * radius;
     // Where the last sections lie in the trunk, the arm begins at its shoulder.
     let off = |rim: &Rim| rim.middle.distance(shoulder);
     let begin = (count / 2..count).min_by(|&a, &b| off(&rims[a]).total_cmp(&off(&rims[b])))?;

@@ -15,28 +15,18 @@ const HALF_WIDTH: (f64, f64) = (0.155, 0.4);
 const RADIUS: (f64, f64) = (0.07, 0.6);
 /// How far up from crotch to neck shoulders are (.818 - .48 of .87 - .48 H), and what is no surprise.
 const HEIGHT: (f64, f64) = (0.86, 0.15);
-/// How far beside the way from shoulder to wrist an elbow is no surprise, as a share of the arm's length: an arm bent by 60
-/// degrees.
-const BENT: f64 = 0.2;
 /// Shoulders are each other's image to within this, in heights.
 const APART: f64 = 0.03;
 /// The two arms are as long as each other to within this, as a logarithm.
 const UNEVEN: f64 = 0.15;
-/// Hands as long to within this, as a logarithm, are alike.
-const UNEVEN_HANDS: f64 = 0.25;
 /// An arm passes a joint that is given within this distance, in heights.
 const PASSES: f64 = 0.02;
 /// What each given joint costs at most that an arm passes by more than `PASSES`, and what each costs a side without an arm.
 const PASSES_BY: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;
-/// What an arm costs whose wrist is not seen.
-const NO_WRIST: f64 = 1.0;
 /// What an arm costs all of which lies in the air.
 const IN_AIR: f64 = 20.0;
-/// An elbow or a wrist in something this many times as thick as the arm, all around, such as a head, is too deep; each
-/// costs the second, half of `IN_AIR`.
-const DEEP: (f64, f64) = (2.2, 10.0);
 /// What a side without an arm costs.
 const NO_ARM: f64 = 14.0;
 /// Rays are finer than cells: what they see goes before what costs less by no more than this.
@@ -95,25 +85,8 @@ impl Body<'_> {
             .flat_map(|pair| (0..SAMPLES).map(|i| pair[0].lerp(pair[1], i as f64 / SAMPLES as f64)))
             .filter(|&p| !self.solid.is_in(p))
             .count();
-        // Arms are held straight enough for a rig, or bent at the elbow, not beside it.
-        let off =
-            (arm.elbow - arm.shoulder).reject_from((arm.wrist - arm.shoulder).normalize_or_zero()).length();
-        cost += surprise(off / (BENT * length));
         cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
-        let deep = [arm.elbow, arm.wrist].into_iter().filter(|&p| self.is_deep(p, DEEP.0 * arm.radius));
-        cost += DEEP.1 * deep.count() as f64;
-        cost += if arm.wrist_seen { 0.0 } else { NO_WRIST };
         Candidate { arm, cost }
-    }
-
-    /// True where all is filled around a point, at a distance.
-    fn is_deep(&self, p: DVec3, distance: f64) -> bool {
-        let corners = (0..8).map(|corner| {
-            let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            DVec3::new(sign(0), sign(1), sign(2)) / 3.0f64.sqrt()
-        });
-        let faces = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
-        corners.chain(faces).all(|way| self.solid.is_in(p + distance * way))
     }
 
     /// What is odd about a left and a right arm.
@@ -134,39 +107,6 @@ impl Body<'_> {
         let elbow = shoulder.lerp(arm.wrist, other.elbow_share());
         Arm { shoulder, elbow, pit: other.pit, radius: other.radius, ..arm.clone() }
     }
-}
-
-/// Gives both arms hands of one length, as far as they are not `given`.
-///
-/// Where one wrist does not show, its hand is as long as the other one; where neither does, or hands are uneven, both are in doubt.
-pub fn even_hands(arms: [Option<Arm>; 2], given: [bool; 2]) -> [Option<Arm>; 2] {
-    let [Some(left), Some(right)] = &arms else { return arms };
-    let is_even =
-        |one: &Arm, other: &Arm| (hand(one) / hand(other).max(1e-9)).max(1e-9).ln().abs() <= UNEVEN_HANDS;
-    let beside = |arm: &Arm, other: &Arm| {
-        Some(if arm.wrist_seen && is_even(arm, other) { arm.clone() } else { with_hand_of(arm, other) })
-    };
-    // A hand that is given tells how long the other one is, else one that shows.
-    let tells = if given == [false, false] { [left.wrist_seen, right.wrist_seen] } else { given };
-    match tells {
-        [true, false] => [Some(left.clone()), beside(right, left)],
-        [false, true] => [beside(left, right), Some(right.clone())],
-        [true, true] if given[0] || is_even(left, right) => arms,
-        [true, true] | [false, false] => arms.map(|arm| Some(Arm { wrist_seen: false, ..arm? })),
-    }
-}
-
-/// How long a hand is.
-fn hand(arm: &Arm) -> f64 {
-    arm.tip.distance(arm.wrist)
-}
-
-/// The arm with a hand as long as the other one's.
-fn with_hand_of(arm: &Arm, other: &Arm) -> Arm {
-    let wrist = arm.tip + (arm.elbow - arm.tip).clamp_length(hand(other), hand(other));
-    // Halfway: the elbow was found between shoulder and wrist.
-    let elbow = arm.elbow + 0.5 * (wrist - arm.wrist);
-    Arm { wrist, elbow, wrist_seen: true, ..arm.clone() }
 }
 
 fn surprise(deviation: f64) -> f64 {

@@ -33,16 +33,12 @@ const ARM_BEGINNING: usize = 6;
 const RADIUS_RANGE: (usize, usize) = (10, 3);
 /// The sections of the arm's upper piece, likewise. Seen: at -30 %, three fewer joints off by over 0.06 H.
 const UPPER_RANGE: (usize, usize) = (20, 4);
-/// A wrist is slimmer than the hand and than the arm by these factors. Seen: at -30 %, three fewer good joints doubted;
-/// at +30 %, twelve more good joints doubted; of the second, ±30 % moves joints by under 0.0005 H.
+/// A wrist is slimmer than the hand by this factor. Seen: at -30 %, three fewer good joints doubted; at +30 %, twelve
+/// more good joints doubted.
 const HAND_WIDENS: f64 = 1.12;
-const ARM_WIDENS: f64 = 1.05;
 /// Of places that are about as slim, which differ by less than the hand does, the last one is where the hand begins, if what
 /// is slim before it is so by chance: the wrist lies this share of the way to it.
 const TO_HAND: f64 = 0.5;
-/// No wrist lies within this of the far end of `WRIST_RANGE`, where the slimmest section only shows that the arm grows
-/// thinner still. Seen: ±30 % changes no joint.
-const WRIST_MARGIN: f64 = 0.02;
 /// A bend is looked for between these shares of the way from shoulder to wrist: elbows are at .56 of it (Winter: .186 of
 /// .332 H), of stylised figures and babies from .4 on. Seen: from .34 on, the elbows of two babies are off by 0.028 H more.
 const BEND_RANGE: (f64, f64) = (0.3, 0.72);
@@ -173,12 +169,6 @@ impl ArmCurve {
         upper.iter().sum::<DVec3>() / upper.len().max(1) as f64
     }
 
-    /// How far forward its beginning runs on a step along `right`.
-    pub fn ahead(&self, right: DVec3) -> f64 {
-        let way = self.middles[self.len() / RADIUS_RANGE.1] - self.middles[self.len() / RADIUS_RANGE.0];
-        way.z / way.dot(right).max(1e-9)
-    }
-
     /// The point at a share of its length.
     pub fn at_share(&self, share: f64) -> DVec3 {
         self.at(share * self.whole())
@@ -268,12 +258,10 @@ fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
     let at = lowest(&weighed)?;
     let slim = girths.partition_point(|&(share, _)| share < at).min(girths.len() - 1);
     let most = |girths: &[(f64, f64)]| girths.iter().map(|&(_, girth)| girth).fold(0.0, f64::max);
-    let is_slim = most(&girths[slim..]) > HAND_WIDENS * girths[slim].1
-        && most(&girths[..slim]) > ARM_WIDENS * girths[slim].1;
-    let last = WRIST_RANGE.1 - WRIST_MARGIN;
-    (is_slim && at < last).then(|| {
+    let is_slim = most(&girths[slim..]) > HAND_WIDENS * girths[slim].1;
+    is_slim.then(|| {
         let least = weighed.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let as_slim = weighed.iter().rev().find(|&&(_, girth)| girth <= HAND_WIDENS * least);
-        (at + TO_HAND * as_slim.map_or(0.0, |&(share, _)| (share - at).max(0.0))).min(last)
+        at + TO_HAND * as_slim.map_or(0.0, |&(share, _)| (share - at).max(0.0))
     })
 }

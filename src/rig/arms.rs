@@ -2,7 +2,6 @@
 
 use super::arm_curve::{Arm, ArmCurve};
 use super::front_view::FrontView;
-use super::head_line::middle;
 use super::silhouette::{GridFrame, RayGrid};
 use crate::geometry::median;
 use glam::{DVec2, DVec3};
@@ -24,8 +23,6 @@ const CLEAR: f64 = 0.25;
 const TRUNK_WIDENS: f64 = 2.0;
 /// What `TRUNK_WIDENS` compares lies this share of the arm's width apart.
 const WITHIN: f64 = 0.6;
-/// An arm that runs forward by more than this, of what it runs aside, is held forward.
-const FORWARD: f64 = 0.4;
 /// The line of an arm that hangs straight down is taken to run outwards by at least this. Seen: .2 to .3 change no joint.
 const STEEPEST: f64 = 0.25;
 /// Rays go on beyond the tip by this, in heights, or the last ones would miss it.
@@ -34,8 +31,6 @@ const BEYOND_TIP: f64 = 0.015;
 const INSIDE: f64 = 0.7;
 /// Rays reach this share of the arm's length to either side of the arm: far enough that a trunk is seen to be wider.
 const SPAN: f64 = 0.5;
-/// Fewer sections are no arm. Seen: ±30 % changes no joint.
-const LEAST_STATIONS: usize = 12;
 /// Middles are means over so many sections to either side. Seen: ±30 % moves joints by under 0.0005 H.
 const SMOOTHED: usize = 3;
 
@@ -65,7 +60,8 @@ pub fn seen_by_rays(view: &FrontView, branch: &Arm, left: bool) -> Option<Arm> {
     let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
     let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
     let stations = stations(&grid, ((inside + CLEAR * length) / cell) as usize);
-    let first = stations.first().filter(|_| stations.len() >= LEAST_STATIONS)?;
+    // The radius is read from the first third.
+    let first = stations.first().filter(|_| stations.len() > 2)?;
     let below = DVec2::new(along.y, -along.x);
     let pit = flat(first.centre) + 0.5 * first.width * below;
     let sections = stations.iter().map(|station| (station.centre, station.width + station.depth));
@@ -74,12 +70,7 @@ pub fn seen_by_rays(view: &FrontView, branch: &Arm, left: bool) -> Option<Arm> {
     let upper = curve.upper();
     // The shoulder joint lies straight over the armpit.
     let inwards = (flat(upper).x - pit.x) / along.x.max(STEEPEST);
-    let mut shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
-    let (ahead, trunk) = (curve.ahead(right), middle(view, shoulder.y).0);
-    if ahead > FORWARD {
-        // An arm held forward begins in the depth of the trunk's middle.
-        shoulder.z = (upper.z - ahead * inwards).max(trunk.min(upper.z));
-    }
+    let shoulder = upper - right * inwards + DVec3::Y * SHOULDER_OVER * radius;
     Some(curve.joints(shoulder, right, pit))
 }
 

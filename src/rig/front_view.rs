@@ -18,10 +18,7 @@ const MOST_HALF_COLUMNS: usize = 4 * ROWS;
 /// ±30 % changes no joint.
 const LOW_REACH: f64 = 0.04;
 const HIGH_REACH: f64 = 0.12;
-/// A set of meshes is whole where its arms reach at least this share as far out as those of all meshes. Seen: at +30 %,
-/// joints lie 0.001 H further off, three more good joints doubted.
-const WIDE_SHARE: f64 = 0.6;
-/// A set of meshes is whole where nearly all rows between feet and head, at least this share, show something. Seen: at
+/// A figure is in one piece where nearly all rows between feet and head, at least this share, show something. Seen: at
 /// +30 %, joints lie 0.003 H further off, eight more by over 0.06 H.
 const FILLED_ROWS: f64 = 0.97;
 /// A set of meshes is whole where nearly all of it, at least this share, hangs together. Seen: at +30 %, joints lie
@@ -198,7 +195,6 @@ fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize)
 struct Extent {
     low: f64,
     high: f64,
-    width: f64,
 }
 
 impl Extent {
@@ -206,18 +202,17 @@ impl Extent {
         let corners = all_runs(grid).flat_map(|(row, (start, end))| [(start, row), (end, row + 1)]);
         let (low, high) = bounds(corners.map(|(x, y)| DVec3::new(x as f64, y as f64, 0.0)));
         if low.y > high.y {
-            return Self { low: 0.0, high: 1.0, width: 0.0 };
+            return Self { low: 0.0, high: 1.0 };
         }
         let cell = grid.frame.cell;
-        Self { low: low.y * cell, high: high.y * cell, width: (high.x - low.x) * cell }
+        Self { low: low.y * cell, high: high.y * cell }
     }
 }
 
 fn is_whole(grid: &RayGrid, all: &Extent) -> bool {
     let own = Extent::of(grid);
     let reaches = own.low <= all.low + LOW_REACH && own.high >= all.high - HIGH_REACH;
-    let is_wide = own.width >= WIDE_SHARE * all.width;
-    reaches && is_wide && filled_share(grid) >= FILLED_ROWS && connected_share(grid) >= CONNECTED_SHARE
+    reaches && connected_share(grid) >= CONNECTED_SHARE
 }
 
 /// The share of the rows between the lowest and the highest that show something.

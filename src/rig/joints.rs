@@ -7,7 +7,7 @@
 //! placed by ratio, and said so.
 
 use super::arm_branch::{arms_of, raised};
-use super::arm_choice::{Body, Candidate, FINER, IMAGE, even_hands};
+use super::arm_choice::{Body, Candidate, FINER, IMAGE};
 use super::arm_curve::Arm;
 use super::arms::seen_by_rays;
 use super::candidates::{Candidates, likelihood};
@@ -126,8 +126,6 @@ const ODD_ARMS: f64 = 6.0;
 /// Who stands has the feet under the shoulders, to within half a foot's length (Winter, table 4.1: .152 H); who sits has them
 /// 0.13 H ahead and more, those that stand 0.05 H at most.
 const BALANCE: f64 = 0.08;
-/// A leg that goes aside by more than this share of its height has its ankle elsewhere than a ratio says: 17 degrees.
-const LEANS: f64 = 0.3;
 
 /// Joints of a leg that may be given.
 const LEG: [Role; 3] = [Role::LeftUpperLeg, Role::LeftLowerLeg, Role::LeftFoot];
@@ -218,13 +216,8 @@ impl Search<'_> {
         if let Some(line) = shoulders(&arms)
             && (matches!(legs.seen, LegGap::Unseen | LegGap::Hem) || !LEGS.contains(&share(&legs, line)))
         {
-            let ends_at_hem = legs.seen == LegGap::Hem;
             let below = legs.below_shoulders(view, line);
             tried.push(std::mem::replace(&mut legs, below));
-            if ends_at_hem {
-                // The trunk begins further up than the hem does.
-                arms = self.arms(&legs, &solid);
-            }
         }
         // Legs that are oddly short or long under their shoulders end at the hem of something, or above the crotch.
         let odd = shoulders(&arms).is_some_and(|line| !is_usual(share(&legs, line)));
@@ -285,12 +278,12 @@ impl Search<'_> {
     fn arms(&mut self, legs: &Legs, voxels: &Voxels) -> [Option<Arm>; 2] {
         let (view, solid) = (self.view, &voxels.solid);
         let body = &self.body(legs, solid);
-        let (neck, given) = (body.neck, body.given);
+        let neck = body.neck;
         let mut sides: [Vec<Candidate>; 2] = Default::default();
         let top = neck.unwrap_or(legs.crotch + CORE_BY_RATIO * (view.high - legs.crotch));
         let core = legs.crotch + CORE_FROM * (top - legs.crotch)..top;
         for branch in branches(voxels, view.axis, core) {
-            let arms = arms_of(&branch, view.axis, |y| middle(view, y).0).into_iter();
+            let arms = arms_of(&branch, view.axis).into_iter();
             for (left, arm) in arms.filter(|(_, arm)| arm.tip.y > HANDS_ABOVE * legs.crotch) {
                 let seen = seen_by_rays(view, &arm, left);
                 let higher = seen.as_ref().and_then(|arm| raised(arm, solid));
@@ -325,7 +318,7 @@ impl Search<'_> {
             let arms = side.iter().zip(least).filter_map(|(one, &cost)| Some((&one.as_ref()?.arm, cost)));
             self.found.candidates.set_arms(left, arms);
         }
-        even_hands(best.1, given.map(|joints| joints[2].is_some()))
+        best.1
     }
 
     fn at(&self, role: Role) -> DVec3 {
@@ -357,9 +350,7 @@ impl Search<'_> {
             self.warn("no slim place was seen above the feet: ankles placed by ratio");
         }
         for (left, leg) in [true, false].into_iter().zip(pair) {
-            let leans = (leg.ankle.x - leg.hip.x).abs() > LEANS * (leg.hip.y - leg.ankle.y);
-            let by_leg = if leans { DOUBTFUL } else { ANKLE_BY_LEG };
-            let ankle = if leg.ankle_seen { confidence } else { confidence.min(by_leg) };
+            let ankle = if leg.ankle_seen { confidence } else { confidence.min(ANKLE_BY_LEG) };
             let upper = if odd || legs.seen == LegGap::Hem { confidence.min(DOUBTFUL) } else { confidence };
             self.put(Role::LeftUpperLeg.on_side(left), leg.hip, upper.min(SEEN_HIP));
             self.put(Role::LeftLowerLeg.on_side(left), leg.knee, upper);

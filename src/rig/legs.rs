@@ -273,29 +273,15 @@ impl Legs {
     pub fn below_shoulders(&self, view: &FrontView, shoulder_line: f64) -> Self {
         let crotch = view.low + CROTCH_OF_SHOULDERS * (shoulder_line - view.low).max(0.0);
         if self.seen == LegGap::Hem {
-            let (seen, crotch, sections) = if crotch > self.crotch {
-                (LegGap::Hem, crotch, [0, 1].map(|side| self.beyond_hem(view, side, crotch)))
+            let (seen, crotch) = if crotch > self.crotch {
+                (LegGap::Hem, crotch)
             } else {
                 // What widens there is a jacket's or a trunk's: the legs divide no higher.
-                (LegGap::Open, self.crotch, self.sections.clone())
+                (LegGap::Open, self.crotch)
             };
-            return Self { crotch, seen, sections, pairs: Vec::new() };
+            return Self { crotch, seen, sections: self.sections.clone(), pairs: Vec::new() };
         }
         Self::new(view, crotch, LegGap::Unseen, Vec::new())
-    }
-
-    /// Sections of a leg up to its crotch: those below a hem, and above it as if the leg went on.
-    fn beyond_hem(&self, view: &FrontView, side: usize, crotch: f64) -> Vec<Section> {
-        let foot = view.low + ANKLE_RANGE.1 * (self.crotch - view.low);
-        let (mut all, top) = (self.sections[side].clone(), self.crotch - HEM_ROWS as f64 * view.cell());
-        all.retain(|section| section.y <= top);
-        let seen: Vec<Section> = all.iter().copied().filter(|section| section.y >= foot).collect();
-        let Some(middle) = mean_section(&seen, foot, top) else {
-            return self.sections[side].clone();
-        };
-        let rows = view.grid.row(top) + 1..=view.grid.row(crotch);
-        all.extend(rows.map(|row| Section { y: view.grid.y(row), ..middle }));
-        all
     }
 
     /// The same legs, inside of something; `None` where lobes do not show any.
@@ -463,14 +449,8 @@ fn ankle_height(sections: &[Section], low: f64, length: f64) -> (f64, f64, bool)
         let least = calf.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let below = sections.iter().filter(|s| s.y < slim).map(girth).fold(0.0, f64::max);
         if below > FOOT_WIDENS * least {
-            // Three witnesses: the slim place over the ankle bones, where the foot ends under it, if it does, and
-            // how bodies are made.
-            let mut told = vec![low + ANKLE_OF_SLIM * (slim - low), by_ratio];
-            let is_foot = |s: &&Section| girth(s) > FOOT_WIDENS * least;
-            let under: Vec<&Section> = sections.iter().take_while(|s| s.y < slim).collect();
-            let end = under.iter().rposition(is_foot).filter(|&end| end + 1 < under.len());
-            told.extend(end.map(|end| under[end].y));
-            let y = told.iter().sum::<f64>() / told.len() as f64;
+            // Two witnesses: the slim place over the ankle bones, and how bodies are made.
+            let y = 0.5 * (low + ANKLE_OF_SLIM * (slim - low) + by_ratio);
             return (believed(y), slim, true);
         }
     }
