@@ -412,8 +412,9 @@ pub fn leg(view: &FrontView, legs: &Legs, left: bool, given: [Option<DVec3>; 3])
     };
     let height_of = |y: f64| between(y, y);
     let (ankle_y, slim, ankle_seen) = ankle_height(sections, view.low, length);
-    let above_ankle = height_of(slim);
-    let ankle = given_ankle.unwrap_or_else(|| view.point(left, above_ankle.x, ankle_y, above_ankle.z()));
+    // Feet reach forward from the shin, but not aside: a leg that leans has its ankle aside of what is above it.
+    let (x, z) = (height_of(ankle_y).x, height_of(slim).z());
+    let ankle = given_ankle.unwrap_or_else(|| view.point(left, x, ankle_y, z));
     let hip = given_hip.unwrap_or_else(|| {
         let y = legs.crotch + HIP_OVER_CROTCH * length;
         let top = between(at(THIGH_RANGE.0), at(THIGH_RANGE.1));
