@@ -249,7 +249,7 @@ fn means_around<T: Copy + Sum + Div<f64, Output = T>>(values: &[T], reach: usize
 }
 
 /// Where the wrist shows: the slimmest of some girths before the hand, each with its share of the way from shoulder to
-/// tip. `None` where none is slimmer than both what is before it and what is beyond.
+/// tip. `None` where none is slimmer than what is beyond it.
 fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
     let in_range = |&&(share, _): &&(f64, f64)| (WRIST_RANGE.0..=WRIST_RANGE.1).contains(&share);
     let usual = |share: f64| 1.0 + WRIST_PRIOR.1 * ((share - WRIST_BY_RATIO) / WRIST_PRIOR.0).powi(2);
@@ -257,8 +257,7 @@ fn slimmest(girths: &[(f64, f64)]) -> Option<f64> {
         girths.iter().filter(in_range).map(|&(share, girth)| (share, girth * usual(share))).collect();
     let at = lowest(&weighed)?;
     let slim = girths.partition_point(|&(share, _)| share < at).min(girths.len() - 1);
-    let most = |girths: &[(f64, f64)]| girths.iter().map(|&(_, girth)| girth).fold(0.0, f64::max);
-    let is_slim = most(&girths[slim..]) > HAND_WIDENS * girths[slim].1;
+    let is_slim = girths[slim..].iter().any(|&(_, girth)| girth > HAND_WIDENS * girths[slim].1);
     is_slim.then(|| {
         let least = weighed.iter().map(|&(_, girth)| girth).fold(f64::INFINITY, f64::min);
         let as_slim = weighed.iter().rev().find(|&&(_, girth)| girth <= HAND_WIDENS * least);

@@ -99,13 +99,12 @@ fn station(grid: &RayGrid, column: usize, middle: &mut usize) -> Option<Station>
 /// The arm's sections from the armpit to the tip, followed both ways from the column where it is clear of the trunk.
 fn stations(grid: &RayGrid, clear: usize) -> Vec<Station> {
     let mut middle = grid.frame.rows / 2;
-    let mut outwards: Vec<Station> =
+    let mut stations: Vec<Station> =
         (clear..STATIONS).filter_map(|column| station(grid, column, &mut middle)).collect();
-    let usual = median(&mut outwards.iter().map(|s| s.width).collect::<Vec<_>>());
-    let widest = outwards.iter().map(|s| s.width).fold(0.0, f64::max);
+    stations.reverse();
+    let mut widths: Vec<f64> = stations.iter().map(|s| s.width).collect();
+    let (usual, widest) = (median(&mut widths), widths.iter().copied().fold(0.0, f64::max));
     let apart = ((WITHIN * usual / grid.frame.cell).round() as usize).max(1);
-    outwards.reverse();
-    let mut stations = outwards;
     let mut middle = grid.frame.rows / 2;
     for column in (0..clear).rev() {
         let Some(section) = station(grid, column, &mut middle) else { break };
@@ -117,4 +116,40 @@ fn stations(grid: &RayGrid, clear: usize) -> Vec<Station> {
     }
     stations.reverse();
     stations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Front and back of what is so far from the line y = 0, at places along x.
+    fn sheets(outline: &[(f64, f64)]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let corners = |&(x, half): &(f64, f64)| {
+            [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)]
+                .map(|(y, z)| DVec3::new(x, y * half, 0.03 * z))
+        };
+        let positions = outline.iter().flat_map(corners).collect();
+        let quads = (0..outline.len() as u32 - 1).map(|at| 4 * at);
+        let triangles = quads.flat_map(|at| {
+            let [low, high, next_low, next_high] = [at, at + 1, at + 4, at + 5];
+            let back = [[low, high, next_low], [next_low, high, next_high]];
+            back.into_iter().flat_map(|[a, b, c]| [[a, b, c], [c + 2, b + 2, a + 2]])
+        });
+        (positions, triangles.collect())
+    }
+
+    #[test]
+    fn a_sleeve_that_widens_is_no_trunk() {
+        // A forearm, a sleeve that is two and a half times as wide where it ends, and a trunk.
+        let outline = [(0.6, 0.02), (0.35, 0.02), (0.15, 0.05), (0.149, 0.28), (0.0, 0.28)];
+        let (positions, triangles) = sheets(&outline);
+        let (cell, columns) = (0.005, STATIONS);
+        let frame =
+            GridFrame { origin: DVec3::Y * -0.3, right: DVec3::X, up: DVec3::Y, cell, columns, rows: 120 };
+        let grid = RayGrid::new(&positions, &triangles, frame, 1);
+        let first = stations(&grid, 60).first().map(|station| (station.centre.x, station.width)).unwrap();
+        // The outermost whole column of the sleeve, as wide as the sleeve is in its middle.
+        assert!((first.0 - 0.1525).abs() < 1e-9, "{first:?}");
+        assert!((first.1 - 2.0 * (0.05 - 0.15 * 0.0025)).abs() < 2.0 * cell, "{first:?}");
+    }
 }

@@ -380,7 +380,7 @@ fn section(view: &FrontView, left: bool, row: usize, limb: Limb) -> Option<Secti
 }
 
 /// The mean of the sections between two heights, the nearest one where there are none there.
-pub fn mean_section(sections: &[Section], low: f64, high: f64) -> Option<Section> {
+fn mean_section(sections: &[Section], low: f64, high: f64) -> Option<Section> {
     let within: Vec<&Section> = sections.iter().filter(|s| s.y >= low && s.y <= high).collect();
     if within.is_empty() {
         let y = 0.5 * (low + high);
