@@ -131,6 +131,11 @@ fn legs_thickness() -> f64 {
     0.28125_f64.sqrt()
 }
 
+/// Torso and leg are to be 0.075 long each, 0.1 of heads that are 0.3 where the reference's are 0.4; the foot has 0.35 of the leg's.
+fn both_short() -> f64 {
+    (0.075 + 0.075 - 0.02625) / (0.5 + 0.72)
+}
+
 #[test]
 fn the_limits_keep_a_body_sound_and_say_so() {
     let reference = Proportions { leg: 0.24, ..small() };
@@ -208,6 +213,14 @@ fn each_limit_acts_where_it_should() {
             |s| s.torso.length,
             0.45 - (0.22 * 0.72 + 0.02625 - 0.075) / 0.5,
         ),
+        // Legs of 0.22 would leave no torso.
+        (
+            "a short torso over short legs",
+            |_, r| (r.torso, r.leg) = (0.1, 0.1),
+            |s| s.torso.length,
+            both_short(),
+        ),
+        ("short legs under it", |_, r| (r.torso, r.leg) = (0.1, 0.1), |s| s.upper_leg.length, both_short()),
     ];
     for (what, change, read, expected) in cases {
         let (mut target, mut reference) = (tall(), small());

@@ -391,12 +391,14 @@ impl<'a> Solver<'a> {
             let room = (leg - SHORTEST_LIMB * shank).max(ROOM_FOR_FOOT * leg);
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);
         }
-        let length = (leg - target.ankle_height * scales.foot) / shank;
-        let length = bounds.apply("leg length", length, SHORTEST_LIMB, scales.head.height);
+        let left = leg - target.ankle_height * scales.foot;
+        // Legs that are stubs take no more from the torso than leaves it as long for itself as they are.
+        let both = (scales.torso.length * target.torso + left) / (target.torso + shank);
+        let length = bounds.apply("leg length", left / shank, both.min(SHORTEST_LIMB), scales.head.height);
         // What the legs could not give, the torso gives.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {
-            scales.torso.length = (scales.torso.length - bounds.strictness * excess / target.torso).max(0.0);
+            scales.torso.length -= bounds.strictness * excess / target.torso;
         }
         (scales.upper_leg.length, scales.lower_leg.length) = (length, length);
     }
