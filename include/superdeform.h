@@ -604,8 +604,8 @@ typedef struct SdefStyleNumbers {
   double ankle_height;     // sole to ankle
   double hand;             // wrist to finger tips
   double foot;             // heel to toe
-  double torso_half_width; // median half width of the torso
-  double upper_arm_radius; // mean distance of the surface to the bone
+  double torso_half_width; // half the torso's breadth, the median of its slices
+  double upper_arm_radius; // its radius, the median of its slices
   double lower_arm_radius; // likewise
   double upper_leg_radius; // likewise
   double lower_leg_radius; // likewise

@@ -82,9 +82,9 @@ pub struct SdefStyleNumbers {
     pub hand: f64,
     /// heel to toe
     pub foot: f64,
-    /// median half width of the torso
+    /// half the torso's breadth, the median of its slices
     pub torso_half_width: f64,
-    /// mean distance of the surface to the bone
+    /// its radius, the median of its slices
     pub upper_arm_radius: f64,
     /// likewise
     pub lower_arm_radius: f64,

@@ -99,7 +99,7 @@ impl Measured {
         anatomy.centre_line = frame.centre_line(profile.torso.as_ref());
         let mut shape = shape?;
         shape.landmarks = Some(anatomy.landmarks.heights);
-        shape.proportions = Some(anatomy.proportions.clone());
+        shape.proportions = Some(frame.with_widths(&profile, &anatomy.proportions));
         (shape.face, shape.profile) = (face.as_ref().and_then(FaceStyle::of), Some(profile));
         progress.at(1.0)?;
         Ok(Self { figure, anatomy, face, joints, head_top, weld, chains, lines, shape })

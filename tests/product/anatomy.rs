@@ -5,9 +5,9 @@ use crate::tubes::{Tubes, blended};
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 use superdeform::internals::shape::Measured;
-use superdeform::internals::shape::product::anatomy::Anatomy;
+use superdeform::internals::shape::product::anatomy::{Anatomy, Proportions};
 use superdeform::internals::shape::product::part::Part;
-use superdeform::{MeshKind, Options, Role};
+use superdeform::{Character, MeshKind, Options, Role};
 
 fn assert_near(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected} +- {tolerance}");
@@ -62,29 +62,28 @@ fn lengths_run_between_landmarks() {
 
 #[test]
 fn widths_are_those_of_the_tubes() {
-    let Tubes { anatomy, .. } = blended();
-    let found = &anatomy.proportions;
-    // Of a circle's outline 3 % lie beyond the cosine of 3 % of half a turn.
-    let inner = (0.03 * PI).cos();
-    assert_near(
-        "torso",
-        found.torso_half_width.unwrap(),
-        inner * ADULT.torso_radius,
-        0.005 * ADULT.torso_radius,
-    );
-    // A nose lies on the middle of the outline and adds to its length: 3 % begin a little further in.
+    let Tubes { anatomy, character, .. } = blended();
+    // Of a circle's outline 3 % lie beyond the cosine of 3 % of half a turn. A nose lies on the middle of the outline and adds to
+    // its length: 3 % begin a little further in.
     let half = ADULT.head_half_width;
-    assert_near("head", found.head_half_width, inner * half, 0.015 * half);
-    // Flat triangles with two corners on one of 48 columns and one on the next have their centres this far out.
-    let out = (5.0 + 4.0 * (2.0 * PI / 48.0).cos()).sqrt() / 3.0;
+    assert_near("head", anatomy.proportions.head_half_width, (0.03 * PI).cos() * half, 0.015 * half);
+    let found = measured(character);
+    // Rays meet sides of 48 columns between their corners and their middles, .2 % further in; slices are smoothed along limbs, of
+    // which the next part differs by a third.
     for (what, found, radius) in [
+        ("torso", found.torso_half_width, ADULT.torso_radius),
         ("upper arm", found.upper_arm_radius, ADULT.upper_arm_radius),
         ("lower arm", found.lower_arm_radius, ADULT.lower_arm_radius),
         ("upper leg", found.upper_leg_radius, ADULT.upper_leg_radius),
         ("lower leg", found.lower_leg_radius, ADULT.lower_leg_radius),
     ] {
-        assert_near(what, found.unwrap(), out * radius, 1e-3 * radius);
+        assert_near(what, found.unwrap(), radius, 0.04 * radius);
     }
+}
+
+/// The proportions that a style made of `character` has.
+fn measured(character: &Character) -> Proportions {
+    Measured::of(character, &Options::default()).unwrap().shape.proportions.unwrap()
 }
 
 #[test]
@@ -167,7 +166,7 @@ fn the_centre_line_runs_through_the_torso() {
 
 #[test]
 fn a_person_twice_as_large_has_twice_the_lengths() {
-    let (one, two) = (&blended().anatomy.proportions, moved(|p| 2.0 * p).anatomy.proportions);
+    let (one, two) = (measured(&blended().character), measured(&moved(|p| 2.0 * p).character));
     for (what, one, two) in [
         ("head", one.head_length, two.head_length),
         ("head width", one.head_half_width, two.head_half_width),

@@ -1918,12 +1918,12 @@ internal unsafe struct SdefStyleNumbers {
     public double foot;
 
     /// <summary>
-    /// median half width of the torso
+    /// half the torso's breadth, the median of its slices
     /// </summary>
     public double torso_half_width;
 
     /// <summary>
-    /// mean distance of the surface to the bone
+    /// its radius, the median of its slices
     /// </summary>
     public double upper_arm_radius;
 

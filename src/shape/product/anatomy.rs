@@ -8,7 +8,7 @@ use super::landmarks::{Landmarks, landmarks, middle};
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use crate::character::{MeshKind, Role};
 use crate::error::Warning;
-use crate::geometry::{bounds, cut_at, foot, mean, range, upper_median};
+use crate::geometry::{bounds, cut_at, mean, range};
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
 use glam::DVec3;
@@ -28,11 +28,6 @@ const MOST_HEAD_DEPTH: f64 = 0.55;
 const SECTORS: usize = 8;
 /// Its half width where none is measured, as a share of L. Seen: 30 % either way moves no vertex of 14 models.
 const HEAD_WIDTH_BY_RATIO: f64 = 0.4;
-/// The torso's width is the median of so many slices.
-const TORSO_SLICES: u32 = 5;
-/// The slices of the torso's width are so far apart, as a share of the way from crotch to shoulder line (D27). Seen: 30 % closer, and hips count for
-/// more: vertices move by up to 0.03 H.
-const TORSO_SLICE_STEP: f64 = 0.15;
 /// Outlines count between these quantiles, so that a strap or a pouch is no width (D27). Seen: at 0.68 above, vertices
 /// move by up to 0.03 H; a third more or less below, by 0.003 H.
 const QUANTILES: (f64, f64) = (0.03, 0.97);
@@ -62,9 +57,6 @@ const LEAST_ANKLE: f64 = 0.02;
 /// A foot joint further aside from the knee than this share of the leg is the root of an IK chain. Seen: 30 % either
 /// way moves no vertex of 14 models.
 const FOOT_ASIDE: f64 = 0.35;
-/// A limb's radius is measured between these shares of its bone: joints bulge (D27). Seen: from 0 on, or to 0.56 only,
-/// vertices move by up to 0.04 H.
-const RADIUS_RANGE: (f64, f64) = (0.2, 0.8);
 
 /// An arm from shoulder to wrist, or a leg from the height of the crotch to the ankle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,19 +106,19 @@ pub struct Proportions {
     /// Heel to toe, mean of both sides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub foot: Option<f64>,
-    /// Median half width of the torso.
+    /// Half the torso's breadth, the median of its slices.
     #[serde(alias = "trunk_half_width", skip_serializing_if = "Option::is_none")]
     pub torso_half_width: Option<f64>,
-    /// Mean distance of the surface to the bone.
+    /// Its radius, the median of its slices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub upper_arm_radius: Option<f64>,
-    /// Mean distance of the surface to the bone.
+    /// Its radius, the median of its slices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lower_arm_radius: Option<f64>,
-    /// Mean distance of the surface to the bone.
+    /// Its radius, the median of its slices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub upper_leg_radius: Option<f64>,
-    /// Mean distance of the surface to the bone.
+    /// Its radius, the median of its slices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lower_leg_radius: Option<f64>,
 }
@@ -146,7 +138,7 @@ pub struct Anatomy {
     pub head_centre: DVec3,
     /// Where the head joint is.
     pub head_joint: DVec3,
-    /// The measured numbers.
+    /// The measured numbers, without the widths of torso and limbs, which the profile gives.
     pub proportions: Proportions,
 }
 
@@ -163,28 +155,15 @@ impl Anatomy {
             leg(figure, heights, false),
         ];
         let middle_x = limbs.iter().map(|limb| limb.root.x).sum::<f64>() / 4.0;
-        // Bags and weapons are no thickness of anybody's, unless there is nothing else.
-        let own = |part: usize| {
-            let of_part = |vertex: usize| parts[vertex][part] > 0.5;
-            let bare = figure.triangles_where(|vertex| of_part(vertex) && !figure.is_carried(vertex));
-            if bare.is_empty() { figure.triangles_where(of_part) } else { bare }
-        };
-        // What hangs from joints without a role (bags, machine arms, tails) does not make a torso broad, unless the
-        // torso's own surface is too little to measure.
-        let torso = {
-            let bare = figure.triangles_where(|vertex| {
-                parts[vertex][Part::Torso as usize] > 0.5
-                    && figure.extra_weight[vertex] < 0.5
-                    && !figure.is_carried(vertex)
-            });
-            let measurable = half_width(figure, &bare, 0.5 * (heights.crotch + heights.shoulder_line));
-            if measurable.is_some() { bare } else { own(Part::Torso as usize) }
-        };
         let head_joint = figure.role_position(Role::Head).unwrap_or_default();
-        let bare_head = figure.triangles_where(|vertex| {
-            figure.weight_of(vertex, Role::is_head) > 0.5 && !figure.is_carried(vertex)
-        });
-        let head = if bare_head.is_empty() { own(Part::Head as usize) } else { bare_head };
+        // Hats are no width of a head, unless there is nothing else.
+        let of_head = |bare: bool| {
+            figure.triangles_where(|vertex| {
+                figure.weight_of(vertex, Role::is_head) > 0.5 && !(bare && figure.is_carried(vertex))
+            })
+        };
+        let bare_head = of_head(true);
+        let head = if bare_head.is_empty() { of_head(false) } else { bare_head };
         let head_centre = middle(&figure.positions, head.as_flattened())
             .map_or(DVec3::new(middle_x, heights.crown, head_joint.z), |(centre, _)| centre);
 
@@ -195,15 +174,6 @@ impl Anatomy {
         let head_half_depth = head_half_depth(figure, &head, heights.chin + HEAD_DEPTH_AT * length)
             .filter(|half| (LEAST..MOST_HEAD_DEPTH).contains(&(half / length)));
         let (bottom, top) = (heights.crotch, heights.shoulder_line);
-        let widths = (1..=TORSO_SLICES).filter_map(|step| {
-            half_width(figure, &torso, bottom + TORSO_SLICE_STEP * f64::from(step) * (top - bottom))
-        });
-        let radius = |segment: usize, limbs: &[Limb]| {
-            mean(limbs.iter().filter_map(|limb| {
-                let (a, b) = if segment == 0 { (limb.root, limb.middle) } else { (limb.middle, limb.end) };
-                surface_radius(figure, &own(limb.parts[segment]), a, b)
-            }))
-        };
         let extremity = |limbs: &[Limb], reach: &dyn Fn(&Limb, &[DVec3]) -> f64| {
             mean(limbs.iter().filter_map(|limb| {
                 let points: Vec<DVec3> = (0..figure.positions.len())
@@ -233,11 +203,7 @@ impl Anatomy {
                 let (low, high) = range(points.iter().map(|p| p.z));
                 high - low
             }),
-            torso_half_width: upper_median(widths),
-            upper_arm_radius: radius(0, arms),
-            lower_arm_radius: radius(1, arms),
-            upper_leg_radius: radius(0, legs),
-            lower_leg_radius: radius(1, legs),
+            ..Proportions::default()
         };
         let hips = figure.role_position(Role::Hips).unwrap_or_default();
         let centre_line = vec![(hips.y, hips.z)];
@@ -415,20 +381,4 @@ fn outline(figure: &Figure, triangles: &[[u32; 3]], y: f64) -> Option<Outline> {
     }
     let length: f64 = points.iter().map(|&(_, length)| length).sum();
     (length > 0.0).then_some(Outline { points, length })
-}
-
-/// Area-weighted mean distance of `triangles` to the line a-b, over the middle of it.
-fn surface_radius(figure: &Figure, triangles: &[[u32; 3]], a: DVec3, b: DVec3) -> Option<f64> {
-    let (mut sum, mut area_sum) = (0.0, 0.0);
-    for corners in triangles {
-        let p = corners.map(|vertex| figure.positions[vertex as usize]);
-        let centroid = (p[0] + p[1] + p[2]) / 3.0;
-        let (on_bone, t) = foot(centroid, a, b);
-        if (RADIUS_RANGE.0..=RADIUS_RANGE.1).contains(&t) {
-            let area = (p[1] - p[0]).cross(p[2] - p[0]).length();
-            sum += area * centroid.distance(on_bone);
-            area_sum += area;
-        }
-    }
-    (area_sum > 0.0).then(|| sum / area_sum).filter(|&radius| radius > 0.0)
 }

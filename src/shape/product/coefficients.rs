@@ -125,16 +125,12 @@ struct Asked {
     leg: f64,
     hand: Option<f64>,
     foot: Option<f64>,
-    torso_thickness: Option<f64>,
 }
 
 impl Asked {
-    /// The proportions of `reference`, for a head of length `head` that grows `width_factor` more in width.
-    fn of_reference(target: &Proportions, reference: &Proportions, head: f64, width_factor: f64) -> Self {
+    /// The proportions of `reference`, for a head of length `head`.
+    fn of_reference(reference: &Proportions, head: f64) -> Self {
         let unit = head / reference.head_length;
-        // Judged by the heads' widths: a wide-headed style makes no bulky toddler.
-        let by_head = target.head_width() * width_factor / reference.head_width();
-        let widths = target.torso_half_width.zip(reference.torso_half_width);
         Self {
             neck: reference.neck * unit,
             torso: reference.torso * unit,
@@ -142,7 +138,6 @@ impl Asked {
             leg: reference.leg * unit,
             hand: reference.hand.map(|hand| hand * unit),
             foot: reference.foot.map(|foot| foot * unit),
-            torso_thickness: widths.map(|(ours, theirs)| theirs * unit / ours * by_head),
         }
     }
 
@@ -158,7 +153,6 @@ impl Asked {
             leg: below - neck - torso,
             hand: None,
             foot: None,
-            torso_thickness: None,
         }
     }
 
@@ -310,7 +304,7 @@ impl<'a> Solver<'a> {
         let (torso, leg) = self.solve_neck(&asked);
         // Nothing grows more than the head: a body that is as stubby as the style, or stubbier, keeps its proportions.
         self.scales.torso.length = self.bounds.apply("torso length", torso / target.torso, 0.0, most);
-        self.solve_thickness(&asked, leg, sliced);
+        self.solve_thickness(leg, sliced);
         let arm = self.bounds.apply("arm length", asked.arm / target.arm, SHORTEST_LIMB, most);
         (self.scales.upper_arm.length, self.scales.lower_arm.length) = (arm, arm);
         self.scales.hand = self.extremity(target.hand, asked.hand, self.scales.lower_arm.thickness);
@@ -324,9 +318,7 @@ impl<'a> Solver<'a> {
         let Some(reference) = self.goal.reference() else {
             return of_heads(1.0 + self.lost * (TRUNK_FOR_HEADS - 1.0));
         };
-        let width_factor = self.scales.head.width / self.scales.head.height;
-        let style = Asked::of_reference(self.target, reference, self.head, width_factor);
-        of_heads(1.0).towards(style, self.lost)
+        of_heads(1.0).towards(Asked::of_reference(reference, self.head), self.lost)
     }
 
     /// From what a part has without a style to what the style gives it.
@@ -344,16 +336,13 @@ impl<'a> Solver<'a> {
         (asked.torso * rest, asked.leg * rest)
     }
 
-    /// The thickness that slices go on from: the style's of the torso, not slimmer than that becomes short, nor thicker than it was.
-    /// All parts have it, so that they agree where they meet; but legs have the root of their length as far as no slice goes on
-    /// from there.
+    /// The thickness that slices go on from: the root of the torso's length, or that length where it grows. All parts have it, so
+    /// that they agree where they meet; but legs have the root of their own length as far as no slice goes on from there.
     ///
     /// `leg`: how long legs are to be.
-    fn solve_thickness(&mut self, asked: &Asked, leg: f64, sliced: f64) {
+    fn solve_thickness(&mut self, leg: f64, sliced: f64) {
         let length = self.scales.torso.length;
-        let of_style = asked.torso_thickness.unwrap_or(length.sqrt());
-        let thickness = self.towards(length.sqrt(), of_style);
-        let thickness = self.bounds.within(thickness, length, length.max(1.0));
+        let thickness = length.max(length.sqrt());
         let root = self.root(leg);
         let leg = root * (thickness / root).powf(sliced);
         let scales = &mut self.scales;

@@ -15,7 +15,7 @@ use crate::geometry::{mean, range, upper_median};
 use crate::parallel;
 use crate::shape::figure::Figure;
 use crate::shape::heights::Heights;
-use crate::shape::product::anatomy::{Anatomy, Limb};
+use crate::shape::product::anatomy::{Anatomy, Limb, Proportions};
 use crate::shape::product::part::digits;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
@@ -186,6 +186,28 @@ impl BodyFrame {
         let to_wrist: f64 = self.limbs[..2].iter().map(|limb| limb.middle.distance(limb.end)).sum();
         let elbow = to_elbow / (to_elbow + to_wrist);
         stations(ARM_STATIONS).map(|t| if t < elbow { upper } else { lower })
+    }
+
+    /// `proportions` with the widths that the profile `own` has, in model units: half the torso's breadth and the limbs' radii,
+    /// each the median of its slices.
+    pub fn with_widths(&self, own: &Profile, proportions: &Proportions) -> Proportions {
+        let length = self.head_length();
+        let radius = |extents: Option<[&Row; 2]>, row: Row| {
+            let [breadth, depth] = extents?;
+            let slices = (0..STATIONS).filter(|&at| row[at] > 0.0);
+            upper_median(slices.map(|at| length * (breadth[at] * depth[at]).sqrt()))
+        };
+        let arm = own.arm.as_ref().map(|arm| [&arm.breadth, &arm.depth]);
+        let leg = own.leg.as_ref().map(|leg| [&leg.breadth, &leg.depth]);
+        let torso = own.torso.as_ref();
+        Proportions {
+            torso_half_width: torso.and_then(|torso| upper_median(torso.breadth.map(|half| length * half))),
+            upper_arm_radius: radius(arm, self.arm_row([1.0, 0.0])),
+            lower_arm_radius: radius(arm, self.arm_row([0.0, 1.0])),
+            upper_leg_radius: radius(leg, self.leg_row([1.0, 0.0])),
+            lower_leg_radius: radius(leg, self.leg_row([0.0, 1.0])),
+            ..proportions.clone()
+        }
     }
 }
 

@@ -15,8 +15,6 @@ const FLAT_HAND: f64 = 1.3;
 const SPREAD_UP_TO: f64 = 0.4;
 /// The torso goes over to the skirt below it by this much, up to this place.
 const TO_SKIRT: (f64, f64) = (0.8, 0.55);
-/// A skirt keeps at least the first of these from the legs, where it had it, and the second is enough, in head lengths.
-const SKIRT_ROOM: (f64, f64) = (0.02, 0.1);
 /// What a visible arm may lose and gain.
 const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
 /// What a neck may.
@@ -268,7 +266,7 @@ fn spread(leg: &SliceScales, own: &LegProfile, wanted: &LegProfile, strength: f6
     delta.min(most)
 }
 
-/// A skirt follows the hips, stays outside of the legs, and is no further from them than it was, or halfway from there to
+/// A skirt follows the hips, keeps its distance from the legs, and is no further from them than that, or halfway from there to
 /// hanging straight down.
 fn skirt(result: &mut Scales, own: &Profile) {
     let (Some(skirt), Some(leg)) = (&own.skirt, &own.leg) else { return };
@@ -285,15 +283,9 @@ fn skirt(result: &mut Scales, own: &Profile) {
         let legs = [leg.outward[station] + leg.breadth[station], off + leg.depth[station]];
         let new_legs = [leg.outward[station] + result.spread + new[0], off + new[1]];
         let scale = [0, 1].map(|axis| {
-            // A skirt that is no wider than this around the legs keeps its distance, whichever it is.
-            let (tight, wide) = SKIRT_ROOM;
-            let room = half[axis] - legs[axis];
-            let kept =
-                if room < tight { room } else { (room * new_legs[axis] / legs[axis]).clamp(tight, wide) };
-            let least = new_legs[axis] + kept;
-            let near = new_legs[axis] + room;
+            let near = new_legs[axis] + half[axis] - legs[axis];
             let most = near.max((near * straight[axis]).sqrt());
-            (half[axis] * hips[axis]).min(most).max(least) / half[axis]
+            (half[axis] * hips[axis]).min(most).max(near) / half[axis]
         });
         result.skirt.push(SkirtScale { station, half, forward, scale, shift: 0.0 });
     }
