@@ -342,7 +342,7 @@ fn hand_and_bend(figure: &Figure) -> (f64, f64) {
 }
 
 #[test]
-fn fingers_that_curl_hook_less_than_a_short_hand_grows_stubby_and_its_thumb_is_as_short() {
+fn fingers_of_a_hand_that_becomes_a_mitt_curl_no_more_and_its_thumb_is_as_short() {
     if !at_hand() {
         return;
     }
@@ -351,8 +351,8 @@ fn fingers_that_curl_hook_less_than_a_short_hand_grows_stubby_and_its_thumb_is_a
     let ((old, before), (new, bend)) = (hand_and_bend(run.before()), hand_and_bend(&after));
     assert!(before < -0.05, "the fingers are straight: {before}");
     assert!(new < 0.5 * old, "the hand stays long: {old} before, {new} after");
-    // What bends by a share of the length does so by that over what the length becomes, were it left as it is.
-    assert!(bend < 0.0 && bend / before < 0.65 * old / new, "{before} before, {bend} after");
+    // They go on as the palm leads: a tenth is what soft weights at their roots leave.
+    assert!(bend.abs() < 0.1 * before.abs(), "{before} before, {bend} after");
     let thumb = |figure: &Figure| {
         let [root, end] = [Role::LeftThumbMetacarpal, Role::LeftThumbDistal]
             .map(|role| figure.role_position(role).unwrap());
@@ -378,19 +378,12 @@ fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other_and_the_thumb_in_
     let (before, after) = (spread(run.before()), spread(&run.after()));
     assert!(before > 0.2, "the fingers lie together: {before}");
     assert!(after < 0.6 * before, "{before} before, {after} after");
-    // The sine of the angle between thumb and fingers' plane. Slices that become several times as thick for their length would
-    // make twice as much of it, were the thumb not turned.
+    // The sine of the angle between thumb and palm. Slices that become several times as thick for their length would make twice as
+    // much of it, were the thumb not turned.
     let off_plane = |figure: &Figure| {
         let place = |role: Role| figure.role_position(role).unwrap();
-        let fingers = [
-            [Role::LeftIndexProximal, Role::LeftIndexDistal],
-            [Role::LeftMiddleProximal, Role::LeftMiddleDistal],
-            [Role::LeftRingProximal, Role::LeftRingDistal],
-            [Role::LeftLittleProximal, Role::LeftLittleDistal],
-        ]
-        .map(|ends| ends.map(place));
-        let together = fingers.iter().map(|[root, end]| end - root).sum::<DVec3>();
-        let normal = (fingers[3][0] - fingers[0][0]).cross(together).normalize();
+        let [first, last] = [Role::LeftIndexProximal, Role::LeftLittleProximal].map(place);
+        let normal = (last - first).cross(first.midpoint(last) - place(Role::LeftHand)).normalize();
         let thumb = place(Role::LeftThumbDistal) - place(Role::LeftThumbMetacarpal);
         thumb.normalize().dot(normal).abs()
     };

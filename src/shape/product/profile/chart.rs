@@ -4,6 +4,7 @@
 use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
+use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
@@ -74,7 +75,7 @@ impl Chart {
         let relief = self.reaches.relief(frame, strength, place);
         let (mut smooth, lines) = self.smoothed(&relief);
         if let (Some(hand), Some(wanted), Some(closed)) = (&mut smooth.hand, wanted.hand, lines.closed_hand) {
-            // What becomes a mitt is as large as its thumb leaves it.
+            // What becomes a mitt is as large as its fingers leave it.
             let share = mitt(std::array::from_fn(|axis| wanted[axis] / hand[axis]));
             *hand = std::array::from_fn(|axis| hand[axis] * (closed[axis] / hand[axis]).powf(share));
         }
@@ -138,7 +139,7 @@ impl Chart {
         }
     }
 
-    /// The profile, and the lines, that `relief` leaves.
+    /// The profile, and the lines, that `relief` leaves: as smooth as what is measured is.
     fn smoothed(&self, relief: &Relief) -> (Profile, BodyLines) {
         let (frame, length) = (&self.frame, self.frame.head_length());
         let (mut now, mut lines) = (self.own.clone(), self.lines.clone());
@@ -200,6 +201,22 @@ impl Chart {
                 }
             }
         }
+        // Relief has gaps and folds that a profile has not.
+        if let (Some(now), Some(own)) = (&mut now.torso, &self.own.torso) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+            even_places(&mut now.forward, &own.forward);
+        }
+        if let (Some(now), Some(own)) = (&mut now.leg, &self.own.leg) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+            even_places(&mut now.outward, &own.outward);
+            even_places(&mut now.forward, &own.forward);
+        }
+        if let (Some(now), Some(own)) = (&mut now.arm, &self.own.arm) {
+            even_lengths(&mut now.breadth, &own.breadth);
+            even_lengths(&mut now.depth, &own.depth);
+        }
         (now, lines)
     }
 }
@@ -207,6 +224,20 @@ impl Chart {
 /// 0 of nothing.
 fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     geometry::mean(numbers).unwrap_or(0.0)
+}
+
+/// Makes places `now` as smooth as their `own` ones were.
+fn even_places(now: &mut Row, own: &Row) {
+    if let Some(even) = smooth(&std::array::from_fn(|at| now[at] - own[at])) {
+        *now = std::array::from_fn(|at| own[at] + even[at]);
+    }
+}
+
+/// The same of lengths.
+fn even_lengths(now: &mut Row, own: &Row) {
+    if let Some(even) = smooth_lengths(&std::array::from_fn(|at| now[at] / own[at])) {
+        *now = std::array::from_fn(|at| own[at] * even[at]);
+    }
 }
 
 /// What the parts make of a body: what a head length at rest becomes in heads of the result.

@@ -65,13 +65,13 @@ pub struct BodyFrame {
     pub digits: [[Option<[DVec3; 3]>; 5]; 2],
 }
 
-/// The plane in which a hand's fingers lie.
+/// The plane of a palm, in which a mitt's fingers lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Palm {
     /// The middle of the fingers' roots.
     pub middle: DVec3,
-    /// From the first finger to the last, at right angles to all of them together; a unit vector.
-    pub apart: DVec3,
+    /// From the wrist to there; a unit vector.
+    pub along: DVec3,
     /// The plane's; a unit vector.
     pub normal: DVec3,
 }
@@ -157,15 +157,14 @@ impl BodyFrame {
         Some(Planes { origin: limb.root, axis, across: up, front })
     }
 
-    /// The plane of the fingers of the hand on one side; `None` where fewer than two beside the thumb have joints.
+    /// The palm of the hand on one side; `None` where fewer than two fingers beside the thumb have joints.
     pub fn palm(&self, side: usize) -> Option<Palm> {
-        let fingers: Vec<[DVec3; 3]> = self.digits[side][1..].iter().copied().flatten().collect();
-        let (first, last) = (fingers.first()?, fingers.last()?);
-        let together = fingers.iter().map(|[root, _, end]| end - root).sum::<DVec3>();
-        let apart = (last[0] - first[0]).reject_from(together).try_normalize()?;
-        let normal = apart.cross(together).try_normalize()?;
-        let middle = fingers.iter().map(|[root, ..]| root).sum::<DVec3>() / fingers.len() as f64;
-        Some(Palm { middle, apart, normal })
+        let roots: Vec<DVec3> = self.digits[side][1..].iter().flatten().map(|[root, ..]| *root).collect();
+        let (first, last) = (roots.first()?, roots.last()?);
+        let middle = roots.iter().sum::<DVec3>() / roots.len() as f64;
+        let along = (middle - self.limbs[side].end).try_normalize()?;
+        let normal = (last - first).cross(along).try_normalize()?;
+        Some(Palm { middle, along, normal })
     }
 
     /// From the torso's bottom to its top, model units.
@@ -218,11 +217,11 @@ pub struct BodyLines {
     pub arm_middles: [Option<[Row; 2]>; 2],
     /// The same of hands, at the same parts of their own lengths, in the arms' planes.
     pub hand_middles: [Option<[Row; 2]>; 2],
-    /// Length, half breadth and half thickness of hands whose thumbs are closed as a mitt's, in head lengths.
+    /// Length, half breadth and half thickness of hands whose fingers are closed as a mitt's, in head lengths.
     pub closed_hand: Option<[f64; 3]>,
 }
 
-/// Length, half breadth, half thickness of hands as they are, and with their thumbs closed, in head lengths.
+/// Length, half breadth, half thickness of hands as they are, and with their fingers closed, in head lengths.
 type Hands = [Option<[f64; 3]>; 2];
 
 /// Measures the profile of a figure whose vertices are at `positions`.
@@ -389,7 +388,7 @@ impl Body<'_> {
         (arm, middles)
     }
 
-    /// Length, half breadth, half thickness; the same of hands whose thumbs are closed, and the middles of these.
+    /// Length, half breadth, half thickness; the same of hands whose fingers are closed, and the middles of these.
     fn hands(&self, places: &[u32]) -> (Hands, [Option<[Row; 2]>; 2]) {
         let mut middles = [None, None];
         let mut closed_sides = Vec::new();
@@ -398,7 +397,7 @@ impl Body<'_> {
             let Some(planes) = self.frame.arm_planes(side) else { continue };
             let planes = Planes { origin: self.frame.limbs[side].end, ..planes };
             let Some(open) = self.hand(side, places, &planes) else { continue };
-            let positions = self.with_closed_thumb(side);
+            let positions = self.with_closed_fingers(side);
             let closed = Body { positions: &positions, ..*self };
             *middles = closed.hand_middles(side, &planes, open[0]);
             closed_sides.extend(closed.hand(side, places, &planes));
@@ -431,18 +430,21 @@ impl Body<'_> {
         Some([length, half(|p| p.y)?, half(|p| p.x)?])
     }
 
-    /// Where the vertices are with a hand's thumb as a mitt's.
-    fn with_closed_thumb(&self, side: usize) -> Cow<'_, [DVec3]> {
-        let Some((joints, palm)) = self.frame.digits[side][0].zip(self.frame.palm(side)) else {
-            return Cow::Borrowed(self.positions);
-        };
-        let closing = DigitMap::new(joints).closed(&palm, 1.0);
-        let roles = digits(side == 0)[0];
+    /// Where the vertices are with a hand's fingers as a mitt's.
+    fn with_closed_fingers(&self, side: usize) -> Cow<'_, [DVec3]> {
+        let Some(palm) = self.frame.palm(side) else { return Cow::Borrowed(self.positions) };
+        let (joints, roles) = (self.frame.digits[side], digits(side == 0));
+        let closing =
+            [0, 1, 2, 3, 4].map(|digit| Some(DigitMap::new(joints[digit]?).closed(digit, &palm, 1.0)));
         let closed = |(vertex, &p): (usize, &DVec3)| {
             if !self.chains.hold(vertex, Chain::Hand(side)) {
                 return p;
             }
-            p + self.figure.weight_of(vertex, |role| roles.contains(&role)) * closing.way(p)
+            let moved = closing.iter().zip(&roles).filter_map(|(closing, roles)| {
+                let share = self.figure.weight_of(vertex, |role| roles.contains(&role));
+                Some(share * closing.as_ref()?.way(p))
+            });
+            p + moved.sum::<DVec3>()
         };
         Cow::Owned(self.positions.iter().enumerate().map(closed).collect())
     }

@@ -297,16 +297,15 @@ impl BodyMap {
         let [long, broad, thin] = scales.hand;
         let mitt = mitt(scales.hand);
         let of_side = frame.digits[side];
-        let plane = frame.palm(side);
-        let apart = plane.map_or(DVec3::ZERO, |plane| plane.apart);
+        let hand = frame.palm(side);
         let digits = [0, 1, 2, 3, 4].map(|digit| {
             // Fingers of a hand that is no mitt are left to the slices.
             let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
             let still = DigitMap::new(joints);
+            let closing = hand.map_or(still, |hand| still.closed(digit, &hand, mitt));
             if digit > 0 {
-                return Some(still.without(apart, mitt, 1.0 + THICKER * mitt));
+                return Some(closing);
             }
-            let closing = plane.map_or(still, |plane| still.closed(&plane, mitt));
             // A thumb becomes as short as the hand.
             let along = [planes.axis, planes.across, planes.front].map(|of_arm| closing.to.dot(of_arm));
             let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
@@ -347,18 +346,20 @@ impl DigitMap {
         Self { root, axis, length, bend, to: axis, longer: 1.0, beside: DMat3::ZERO, shift: DVec3::ZERO }
     }
 
-    /// That of a thumb which so much of the way becomes that of a mitt: it turns into the plane of the fingers, and comes
-    /// nearer to it.
-    pub(super) fn closed(self, palm: &Palm, share: f64) -> Self {
+    /// That of finger number `digit`, thumb first, which so much of the way becomes that of a mitt: a thumb turns into the plane of
+    /// the fingers, and comes nearer to it; the others go on as the palm leads, and become thicker.
+    pub(super) fn closed(self, digit: usize, palm: &Palm, share: f64) -> Self {
+        if digit > 0 {
+            return self.turned(self.axis.lerp(palm.along, share), 1.0 + THICKER * share);
+        }
         let shift = share * TO_PALM * palm.way_to(self.root);
-        Self { shift, ..self.without(palm.normal, share, 1.0) }
+        Self { shift, ..self.turned(self.axis - share * self.axis.project_onto_normalized(palm.normal), 1.0) }
     }
 
-    /// Turned so that `share` of what leads along the unit vector `way` is gone, and so much thicker.
-    fn without(self, way: DVec3, share: f64, thicker: f64) -> Self {
-        let axis = self.axis;
-        let to = (axis - share * axis.dot(way) * way).normalize_or(axis);
-        let turn = DMat3::from_quat(DQuat::from_rotation_arc(axis, to));
+    /// Turned along `to`, and so much thicker.
+    fn turned(self, to: DVec3, thicker: f64) -> Self {
+        let to = to.normalize_or(self.axis);
+        let turn = DMat3::from_quat(DQuat::from_rotation_arc(self.axis, to));
         Self { to, beside: thicker * turn - DMat3::IDENTITY, ..self }
     }
 
