@@ -49,7 +49,7 @@ impl PartBinding {
         }
     }
 
-    /// True for what follows the bones of a limb.
+    /// True for what follows the bones of an arm.
     pub fn is_on_bone(&self) -> bool {
         self.attachment == Attachment::OnBone
     }
@@ -58,9 +58,7 @@ impl PartBinding {
     pub fn goes_with(&self) -> Option<(u8, u32)> {
         match (self.attachment, self.face) {
             (Attachment::Piece(piece), _) => Some((0, piece as u32)),
-            (Attachment::OnBone, _) => {
-                (0..2).find(|&side| arm_share(&self.weights, side) > 0.0).map(|side| (3, side as u32))
-            }
+            (Attachment::OnBone, _) => Some((3, u32::from(arm_share(&self.weights, 1) > 0.0))),
             (_, FaceBinding::Piece(thing)) => Some((1, thing)),
             (_, FaceBinding::Ball(side)) => Some((2, u32::from(side))),
             _ => None,

@@ -381,9 +381,10 @@ impl<'a> Solver<'a> {
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);
         }
         let left = leg - target.ankle_height * scales.foot;
-        // Legs that are stubs take no more from the torso than leaves it as long for itself as they are.
+        // Legs that are to be a style's stubs take no more from the torso than leaves it as long for itself as they are.
         let both = (scales.torso.length * target.torso + left) / (target.torso + shank);
-        let length = bounds.apply("leg length", left / shank, both.min(SHORTEST_LIMB), scales.head.height);
+        let least = self.goal.reference().map_or(SHORTEST_LIMB, |_| both.min(SHORTEST_LIMB));
+        let length = bounds.apply("leg length", left / shank, least, scales.head.height);
         // What the legs could not give, the torso gives.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {

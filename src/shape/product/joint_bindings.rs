@@ -86,11 +86,11 @@ pub fn limb_bone(figure: &Figure, joint: usize) -> Option<Role> {
     is_on_bone.then_some(role)
 }
 
-/// The binding of a joint that stands on the bones of an arm or of a leg down to the ankle: it follows these, so that the arm keeps
-/// its angles, a twist bone its share of the way, and hip, knee and ankle one line.
-pub fn limb_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
+/// The binding of a joint that stands on the bones of an arm: it follows these, so that the arm keeps its angles and a twist bone
+/// its share of the way.
+pub fn arm_binding(figure: &Figure, joint: usize) -> Option<PartBinding> {
     let part = Part::of(limb_bone(figure, joint)?);
-    (!matches!(part, Part::LeftFoot | Part::RightFoot))
+    (part < Part::LeftUpperLeg)
         .then(|| PartBinding { attachment: Attachment::OnBone, ..PartBinding::to(part) })
 }
 

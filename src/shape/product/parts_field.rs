@@ -10,6 +10,7 @@ use super::binding::PartBinding;
 use super::part::{HAIR, HEAD, NECK, PART_COUNT, Part, PartWeights, TINY, TORSO};
 use super::pieces::{Attachment, Piece};
 use super::profile::Slices;
+use super::profile::chains::arm_share;
 use super::profile::map::chain_of;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::geometry::{Mapped, Moved, outer};
@@ -184,8 +185,7 @@ impl PartField {
         let unmoved = M::of(p, || DMat3::IDENTITY);
         let to: M = match &self.slices {
             Some(slices) if binding.is_on_bone() => {
-                let part = weights.iter().position(|&weight| weight > 0.0).unwrap_or(TORSO);
-                let on_bones: M = slices.map.on_bones(p, part);
+                let on_bones: M = slices.map.on_bones(p, usize::from(arm_share(weights, 1) > 0.0));
                 self.blend(weights, |_| on_bones)
             }
             Some(slices) if !is_of_head(weights) => {
@@ -304,7 +304,7 @@ impl PartField {
             let [first, second, last] = limb.parts;
             let joints = [limb.root, limb.middle, limb.end];
             let sliced: [DVec3; 3] = match &self.slices {
-                Some(slices) if is_arm => joints.map(|joint| slices.map.on_bones(joint, first)),
+                Some(slices) if is_arm => joints.map(|joint| slices.map.on_bones(joint, index)),
                 Some(slices) => std::array::from_fn(|at| slices.map.part(limb.parts[at], joints[at], false)),
                 None => joints,
             };

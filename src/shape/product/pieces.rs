@@ -24,7 +24,7 @@ const RIGID_WEIGHT: f64 = 0.99;
 pub enum Attachment {
     /// By its weights alone.
     Plain,
-    /// A joint of an arm or a leg: it follows the bones, not the slices around them.
+    /// A joint of an arm: it follows the bones, not the slices around them.
     OnBone,
     /// So much of each finger, thumb first, 0 to 1, which a stubby hand makes parts of a mitt.
     Digits([f32; 5]),

@@ -1,7 +1,7 @@
 //! What product mode finds of a target once, whatever style and options are: how it hangs on the parts, what it wears.
 
 use super::binding::{PartBinding, PartBindings, joint_binding, part_bindings};
-use super::joint_bindings::{limb_binding, mean_bindings, weight_rows};
+use super::joint_bindings::{arm_binding, mean_bindings, weight_rows};
 use super::part::Part;
 use super::profile::Chart;
 use super::worn::Worn;
@@ -55,7 +55,7 @@ impl ProductTarget {
         let means = mean_bindings(character, figure, &vertices);
         let joints = joint_bindings(character, figure, |joint| {
             let of_neck = is_head_joint_in_neck(measured, joint).then(|| PartBinding::to(Part::Neck));
-            let found = of_neck.or_else(|| limb_binding(figure, joint)).or(means[joint]);
+            let found = of_neck.or_else(|| arm_binding(figure, joint)).or(means[joint]);
             Binding::Parts(found.unwrap_or_else(|| joint_binding(figure, &parts, joint)))
         });
         let vertices = vertices.into_iter().map(Binding::Parts).collect();

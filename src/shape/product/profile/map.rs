@@ -186,16 +186,12 @@ impl BodyMap {
         M::of(p + moved, || of().fold(DMat3::IDENTITY, |sum, (digit, share)| sum + digit.slope(p) * share))
     }
 
-    /// As [`Self::part`], for what lies on a bone of part number `part`: it goes along it, so that an arm keeps its angles, and a hip
-    /// joint stands over its leg.
-    pub fn on_bones<M: Moved>(&self, p: DVec3, part: usize) -> M {
-        match chain_of(part, false) {
-            LEFT_LEG => self.leg(0, p),
-            RIGHT_LEG => self.leg(1, p),
-            chain => match &self.arms[usize::from(chain == RIGHT_ARM)] {
-                Some(arm) => arm.map(p, true),
-                None => self.torso(p),
-            },
+    /// As [`Self::part`], for what hangs on the bones of the arm on side `side`: what lies on a bone goes along it, so that
+    /// the arm keeps its angles.
+    pub fn on_bones<M: Moved>(&self, p: DVec3, side: usize) -> M {
+        match &self.arms[side] {
+            Some(arm) => arm.map(p, true),
+            None => self.torso(p),
         }
     }
 
