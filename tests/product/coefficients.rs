@@ -235,6 +235,15 @@ fn each_limit_acts_where_it_should() {
 }
 
 #[test]
+fn long_legs_of_so_many_heads_take_no_more_than_all_of_a_torso() {
+    // 0.8 heads of 0.3 for 0.06, 0.05 and 1.4: the legs' 0.22 are more than that.
+    let target = Proportions { torso: 0.05, leg: 1.4, ..tall() };
+    let (scales, _) = solved(&target, Goal::Heads(1.8), &Options::default());
+    assert_near("leg", scales.upper_leg.length, 0.22);
+    assert_near("torso", scales.torso.length, 0.0);
+}
+
+#[test]
 fn heads_that_grow_half_as_much_are_limited_half_as_much() {
     let options = Options { head_scale: 1.25, ..Options::default() };
     let reference = Proportions { neck: 0.2, ..small() };

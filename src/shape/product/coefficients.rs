@@ -388,7 +388,7 @@ impl<'a> Solver<'a> {
         // What the legs could not give, the torso gives.
         let excess = length * shank + target.ankle_height * scales.foot - leg;
         if excess > ROUNDING * leg {
-            scales.torso.length -= bounds.strictness * excess / target.torso;
+            scales.torso.length = (scales.torso.length - bounds.strictness * excess / target.torso).max(0.0);
         }
         (scales.upper_leg.length, scales.lower_leg.length) = (length, length);
     }
