@@ -43,22 +43,28 @@ pub struct RestTriangles {
     scale: f32,
 }
 
-/// Vertices that follow each other in a mesh.
-#[derive(Clone, Debug)]
+/// Vertices that follow each other in a mesh, and the triangles around them: batch after batch, each list for itself, so that it is
+/// read from end to end.
+#[derive(Clone, Debug, Default)]
 struct Piece {
     vertices: Range<usize>,
     batches: Vec<Batch>,
-}
-
-/// Triangles around a piece's vertices, no more than there is room for.
-#[derive(Clone, Debug)]
-struct Batch {
-    corners: Box<[Corner]>,
-    groups: Box<[Group]>,
-    runs: Box<[Run]>,
+    corners: Vec<Corner>,
+    /// By group, of each of its triangles' three corners which of the batch's it is.
+    places: Vec<[[u16; LANES]; 3]>,
+    groups: Vec<Group>,
+    runs: Vec<Run>,
     /// Run after run, which of the batch's triangles are around the vertex, ascending; twice where it is two of a triangle's
     /// corners.
-    around: Box<[u16]>,
+    around: Vec<u16>,
+}
+
+/// Triangles around a piece's vertices, no more than there is room for: how much of the piece's lists is theirs.
+#[derive(Clone, Copy, Debug)]
+struct Batch {
+    corners: usize,
+    groups: usize,
+    runs: usize,
 }
 
 /// How many of a batch's triangles are around the vertex of a slot.
@@ -78,8 +84,6 @@ struct Corner {
 /// Four triangles that have an area; the last ones of a batch may have none.
 #[derive(Clone, Debug, Default)]
 struct Group {
-    /// Of each of the three corners, which of the batch's it is.
-    corners: [[u16; LANES]; 3],
     /// Rows by which the two edges after, and a normal, make up the gradient, by area; x, y and z of each. The normal's is by the
     /// root of the area, as it is multiplied by that of the area after.
     rows: [[Vec4; 3]; 3],
@@ -266,33 +270,34 @@ impl RestTriangles {
     /// The deformation gradients of the triangles' edges, with the normal as third axis scaled by the root of the change of
     /// area, so that a uniform scaling is fitted exactly.
     fn jacobians<'a>(&'a self, piece: &Piece, moved: &Moved, room: &'a mut Room) -> Jacobians<'a> {
-        let Piece { vertices, batches } = piece;
+        let Piece { vertices, batches, corners, places, groups, runs, around } = piece;
+        let (mut corners, mut places, mut groups, mut runs, mut around) =
+            (&corners[..], &places[..], &groups[..], &runs[..], &around[..]);
         room.sums.fill([Vec4::ZERO; 3]);
         let (size, share) = (moved.size, self.scale * moved.share);
-        for Batch { corners, groups, runs, around } in batches {
-            for (point, corner) in room.points.iter_mut().zip(corners) {
+        for batch in batches {
+            for (point, corner) in room.points.iter_mut().zip(first(&mut corners, batch.corners)) {
                 let displacement = moved.displacements[corner.vertex as usize];
                 *point = size * corner.at.extend(0.0) + share * displacement.extend(0.0);
             }
-            for (group, edges) in groups.iter().zip(&mut room.edges) {
-                *edges = group.edges(&room.points);
+            let room_of_edges = &mut room.edges[..batch.groups];
+            for (corners, to) in first(&mut places, batch.groups).iter().zip(&mut *room_of_edges) {
+                *to = edges_after(corners, &room.points);
             }
             // Roots take long, but many may be on their way.
-            for edges in &mut room.edges[..groups.len()] {
+            for edges in &mut *room_of_edges {
                 let area = root(edges.factor);
                 edges.factor = root(area) / area;
             }
             let (fours, _) = room.gradients.as_chunks_mut();
-            for ((group, edges), gradients) in groups.iter().zip(&room.edges).zip(fours) {
+            let groups = first(&mut groups, batch.groups);
+            for ((group, edges), gradients) in groups.iter().zip(room_of_edges).zip(fours) {
                 *gradients = group.gradients(edges);
             }
-            let mut around = &around[..];
-            for run in runs {
-                let (of_run, rest) = around.split_at(run.count.into());
-                around = rest;
+            for run in first(&mut runs, batch.runs) {
                 let sum = &mut room.sums[usize::from(run.slot) & (PIECE - 1)];
                 let [mut x, mut y, mut z] = *sum;
-                for &triangle in of_run {
+                for &triangle in first(&mut around, run.count.into()) {
                     let gradient = &room.gradients[usize::from(triangle) & (BATCH - 1)];
                     x += gradient[0];
                     y += gradient[1];
@@ -355,22 +360,28 @@ impl Directions {
     }
 }
 
-impl Group {
-    /// Its triangles' edges after, `factor` the square of their cross product.
-    #[inline(always)]
-    fn edges(&self, points: &[Vec4; CORNERS]) -> Edges {
-        let point =
-            |corner: usize, lane: usize| points[usize::from(self.corners[corner][lane]) & (CORNERS - 1)];
-        let first: [Vec4; LANES] = std::array::from_fn(|lane| point(0, lane));
-        let edge = |corner: usize| {
-            let [x, y, z, _] = transposed(std::array::from_fn(|lane| point(corner, lane) - first[lane]));
-            [x, y, z]
-        };
-        let (a, b) = (edge(1), edge(2));
-        let normal = cross(a, b);
-        Edges { a, b, normal, factor: dot(normal, normal) }
-    }
+/// The first `count` of what is left of a list.
+fn first<'a, T>(left: &mut &'a [T], count: usize) -> &'a [T] {
+    let (first, rest) = left.split_at(count);
+    *left = rest;
+    first
+}
 
+/// The edges after of triangles with these corners, `factor` the square of their cross product.
+#[inline(always)]
+fn edges_after(corners: &[[u16; LANES]; 3], points: &[Vec4; CORNERS]) -> Edges {
+    let point = |corner: usize, lane: usize| points[usize::from(corners[corner][lane]) & (CORNERS - 1)];
+    let first: [Vec4; LANES] = std::array::from_fn(|lane| point(0, lane));
+    let edge = |corner: usize| {
+        let [x, y, z, _] = transposed(std::array::from_fn(|lane| point(corner, lane) - first[lane]));
+        [x, y, z]
+    };
+    let (a, b) = (edge(1), edge(2));
+    let normal = cross(a, b);
+    Edges { a, b, normal, factor: dot(normal, normal) }
+}
+
+impl Group {
     /// The triangles' gradients, as [`Room::gradients`] has them.
     #[inline(always)]
     fn gradients(&self, Edges { a, b, normal, factor }: &Edges) -> [[Vec4; 3]; LANES] {
@@ -435,35 +446,46 @@ impl Builder<'_> {
             rest.slots[vertex] = *slot;
         }
         triangles.sort_unstable();
-        let batches = triangles.chunks(BATCH).map(|triangles| self.batch(triangles)).collect();
-        for vertex in vertices.clone() {
+        let count = triangles.chunks(BATCH).map(|batch| batch.len().div_ceil(LANES)).sum();
+        let mut of_piece = Piece { vertices: vertices.clone(), ..Piece::default() };
+        of_piece.groups.reserve_exact(count);
+        of_piece.places.reserve_exact(count);
+        triangles.chunks(BATCH).for_each(|triangles| self.batch(triangles, &mut of_piece));
+        for vertex in vertices {
             self.slots[self.weld.representative[vertex] as usize] = NO_SLOT;
         }
-        rest.pieces.push(Piece { vertices, batches });
+        of_piece.corners.shrink_to_fit();
+        of_piece.runs.shrink_to_fit();
+        of_piece.around.shrink_to_fit();
+        rest.pieces.push(of_piece);
     }
 
-    fn batch(&mut self, triangles: &[u32]) -> Batch {
-        let mut corners = Vec::new();
-        let mut groups = vec![Group::default(); triangles.len().div_ceil(LANES)];
+    fn batch(&mut self, triangles: &[u32], piece: &mut Piece) {
+        let count = triangles.len().div_ceil(LANES);
+        let before =
+            Batch { corners: piece.corners.len(), groups: piece.groups.len(), runs: piece.runs.len() };
+        piece.groups.resize(before.groups + count, Group::default());
+        piece.places.resize(before.groups + count, Default::default());
         // Slots and the triangles around them, as one number each, which is sorted faster than two.
         let mut around: Vec<u32> = Vec::with_capacity(3 * triangles.len());
         for (number, &triangle) in triangles.iter().enumerate() {
-            let (group, lane) = (&mut groups[number / LANES], number % LANES);
+            let (group, lane) = (before.groups + number / LANES, number % LANES);
             let of_triangle = self.triangles[triangle as usize];
             for (corner, &vertex) in of_triangle.iter().enumerate() {
                 let of_batch = &mut self.corners[vertex as usize];
                 if *of_batch == u16::MAX {
-                    *of_batch = corners.len() as u16;
+                    *of_batch = (piece.corners.len() - before.corners) as u16;
                     let at = self.positions[vertex as usize].as_dvec3() - self.middle;
-                    corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
+                    piece.corners.push(Corner { vertex, at: (self.scale * at).as_vec3() });
                 }
-                group.corners[corner][lane] = *of_batch;
+                piece.places[group][corner][lane] = *of_batch;
                 let slot = self.slots[self.weld.representative[vertex as usize] as usize];
                 if slot != NO_SLOT {
                     around.push((u32::from(slot) << 16) | number as u32);
                 }
             }
             let (rows, area) = self.rows(of_triangle);
+            let group = &mut piece.groups[group];
             group.areas[lane] = area;
             for (row, of_group) in rows.iter().zip(&mut group.rows) {
                 for (axis, lanes) in of_group.iter_mut().enumerate() {
@@ -471,17 +493,18 @@ impl Builder<'_> {
                 }
             }
         }
-        for corner in &corners {
+        for corner in &piece.corners[before.corners..] {
             self.corners[corner.vertex as usize] = u16::MAX;
         }
         around.sort_unstable();
         let run = |of_slot: &[u32]| Run { slot: (of_slot[0] >> 16) as u16, count: of_slot.len() as u16 };
-        Batch {
-            corners: corners.into(),
-            groups: groups.into(),
-            runs: around.chunk_by(|a, b| a >> 16 == b >> 16).map(run).collect(),
-            around: around.iter().map(|&at| at as u16).collect(),
-        }
+        piece.runs.extend(around.chunk_by(|a, b| a >> 16 == b >> 16).map(run));
+        piece.around.extend(around.iter().map(|&at| at as u16));
+        piece.batches.push(Batch {
+            corners: piece.corners.len() - before.corners,
+            groups: count,
+            runs: piece.runs.len() - before.runs,
+        });
     }
 
     /// See [`Group::rows`]; and twice the area.
