@@ -18,7 +18,7 @@ pub mod seat;
 pub mod stage;
 
 use crate::error::Warning;
-use crate::geometry::{Mapped, outer};
+use crate::geometry::{Moved, outer};
 use crate::options::FaceCurve;
 use glam::{DMat3, DVec3};
 
@@ -173,14 +173,14 @@ impl FaceShape {
     // Inlined, its arithmetic is done ahead of the choice, for every point and on the bytes of another choice: these are
     // often subnormal numbers, which processors are a hundred times as slow with.
     #[inline(never)]
-    pub fn map(&self, p: DVec3) -> Mapped {
+    pub fn map<M: Moved>(&self, p: DVec3) -> M {
         match self {
-            Self::None => Mapped::unmoved(p),
+            Self::None => M::of(p, || DMat3::IDENTITY),
             Self::Curve(map) => {
-                let slope = DVec3::new(1.0, map.slope(p.y), 1.0);
-                Mapped { position: p.with_y(map.map(p.y)), jacobian: DMat3::from_diagonal(slope) }
+                let slope = || DVec3::new(1.0, map.slope(p.y), 1.0);
+                M::of(p.with_y(map.map(p.y)), || DMat3::from_diagonal(slope()))
             }
-            Self::Sphere(map) => Mapped { position: map.map(p), jacobian: map.jacobian(p) },
+            Self::Sphere(map) => M::of(map.map(p), || map.jacobian(p)),
         }
     }
 }

@@ -143,6 +143,32 @@ fn every_option_of_the_table_changed_in_turn_gives_what_a_new_deformer_gives() {
     assert_eq!(without_effect, expected, "options that no stage reads");
 }
 
+/// What no change of a part moves is taken from before: skirts, hands with fingers, and things that are carried among it.
+#[test]
+fn every_group_changed_after_another_gives_what_a_new_deformer_gives() {
+    let style = models::style_of("kaykit_rogue.glb", &Options::default());
+    let carrying = ("rogue", Arc::new(models::models()["kaykit_rogue.glb"].character.clone()));
+    for (of, character) in characters().into_iter().chain([carrying]) {
+        let mut live = new(&character, &style, &Options::default());
+        let groups: Vec<String> = live.coefficients().keys().cloned().collect();
+        let places = |deformer: &Deformer| {
+            let deformed = deformer.apply();
+            (deformed.meshes.into_iter().map(|mesh| mesh.positions).collect::<Vec<_>>(), deformed.joints)
+        };
+        let (mut before, mut moved) = (places(&live), 0);
+        for group in groups {
+            let mut options = Options::default();
+            options.groups.entry(group.clone()).or_default().length_scale = Some(0.4);
+            live.set_options(&options, &mut Progress::none()).unwrap();
+            let changed = places(&live);
+            assert!(changed == places(&new(&character, &style, &options)), "{of}, {group}");
+            moved += usize::from(changed != before);
+            before = changed;
+        }
+        assert!(moved > 4, "{of}: only {moved} groups move anything");
+    }
+}
+
 #[test]
 fn a_style_set_on_a_deformer_gives_what_a_new_one_gives() {
     let rogue = models::style_of("kaykit_rogue.glb", &Options::default());

@@ -1,11 +1,11 @@
-//! Numbers that carry their gradient, so that a map is written once and its Jacobian is exact; and two numbers side by side, so
-//! that it is done for two points at once.
+//! Numbers that carry their gradient, so that a map is written once and its Jacobian is exact; and eight numbers side by side, so
+//! that it is done for eight points at once.
 
 use glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
-use wide::{CmpGt, CmpLt, f64x2};
+use wide::{CmpGt, CmpLt, f32x8};
 
-/// A number, with or without its gradient, or two of them.
+/// A number, with or without its gradient, or eight of them.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -60,29 +60,64 @@ impl Number for f64 {
     }
 }
 
-impl Number for f64x2 {
+/// Eight numbers, in single precision: as exact as what is written of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Eight(pub f32x8);
+
+impl Number for Eight {
+    #[inline(always)]
     fn constant(value: f64) -> Self {
-        Self::splat(value)
+        Self(f32x8::splat(value as f32))
     }
 
     #[inline(always)]
     fn root(self) -> Self {
-        self.max(Self::ZERO).sqrt()
+        Self(self.0.max(f32x8::ZERO).sqrt())
     }
 
     #[inline(always)]
     fn below(self, limit: f64, then: Self, otherwise: Self) -> Self {
-        self.cmp_lt(Self::splat(limit)).blend(then, otherwise)
+        Self(self.0.cmp_lt(f32x8::splat(limit as f32)).blend(then.0, otherwise.0))
     }
 
     #[inline(always)]
     fn is_above(self, limit: f64) -> bool {
-        self.cmp_gt(Self::splat(limit)).any()
+        self.0.cmp_gt(f32x8::splat(limit as f32)).any()
     }
 
     #[inline(always)]
     fn is_below(self, limit: f64) -> bool {
-        self.cmp_lt(Self::splat(limit)).any()
+        self.0.cmp_lt(f32x8::splat(limit as f32)).any()
+    }
+}
+
+macro_rules! eight {
+    ($($operator:ident $name:ident $by:tt;)+) => {$(
+        impl $operator for Eight {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                Self(self.0 $by other.0)
+            }
+        }
+
+        impl $operator<f64> for Eight {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: f64) -> Self {
+                Self(self.0 $by f32x8::splat(other as f32))
+            }
+        }
+    )+};
+}
+
+eight! { Add add +; Sub sub -; Mul mul *; }
+
+impl Neg for Eight {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
     }
 }
 

@@ -5,9 +5,8 @@
 //! middle, which is foretold from the piece before: second order, for one velocity a piece. In none of them do neighbours
 //! meet (see the tests). The places after whole pieces are kept for each vertex: youth is how far along them it goes.
 
-use super::dual::{Dual, Number, step};
-use glam::{DMat3, DVec3};
-use wide::f64x2;
+use super::dual::{Dual, Eight, Number, step};
+use glam::{DMat3, DVec3, Vec3};
 
 /// Straight pieces of a point's way.
 pub const STEPS: usize = 6;
@@ -126,7 +125,7 @@ impl Kernel {
         if !weight.is_above(0.0) {
             return;
         }
-        // What is used up is: of two points, for one of them.
+        // What is used up is: of eight points, for some of them.
         let share = weight * left.below(0.0, N::constant(0.0), *left);
         for axis in 0..3 {
             let moves = (p[axis] - self.centre[axis]) * self.rates[axis] + self.shift[axis];
@@ -179,15 +178,21 @@ impl Follower {
 
     /// The way of `p`.
     pub fn way(&self, p: DVec3) -> Way {
-        let [way, _] = self.ways([p; 2]);
+        let mut way = Way::default();
+        self.pieces(p.to_array(), 1.0, |piece, p| way[piece] = p.into());
         way
     }
 
-    /// The ways of two points, sooner than one after the other the nearer they are to each other.
-    pub fn ways(&self, points: [DVec3; 2]) -> [Way; 2] {
-        let start = [0, 1, 2].map(|axis| f64x2::new(points.map(|p| p[axis])));
-        let mut ways = [[DVec3::ZERO; STEPS]; 2];
-        self.pieces(start, 1.0, |piece, p| (0..2).for_each(|of| ways[of][piece] = point(p, of)));
+    /// How far eight points go on their ways, sooner than one after the other the nearer they are to each other.
+    pub fn ways(&self, points: [Vec3; 8]) -> [[Vec3; STEPS]; 8] {
+        let start = [0, 1, 2].map(|axis| Eight(points.map(|p| p[axis]).into()));
+        let mut ways = [[Vec3::ZERO; STEPS]; 8];
+        self.pieces(start, 1.0, |piece, p| {
+            let [x, y, z] = p.map(|of_all| of_all.0.to_array());
+            for (of, way) in ways.iter_mut().enumerate() {
+                way[piece] = Vec3::new(x[of], y[of], z[of]) - points[of];
+            }
+        });
         ways
     }
 
@@ -223,11 +228,6 @@ impl Follower {
     pub fn slope(&self, p: DVec3, piece: usize) -> DMat3 {
         Dual::split(velocity(&self.moments[piece], Dual::point(p))).1
     }
-}
-
-/// Number `of` of two points.
-fn point(of_two: [f64x2; 3], of: usize) -> DVec3 {
-    DVec3::from(of_two.map(|both| both.to_array()[of]))
 }
 
 /// Whole pieces of the way, and what part of the next one.

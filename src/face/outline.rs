@@ -172,15 +172,33 @@ impl Levels {
             let (least, most) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
             let first = ceil((least - self.low) / LEVEL - 0.5).max(0.0) as usize;
             let end = floor((most - self.low) / LEVEL + 0.5).max(0.0) as usize;
-            for index in first..end.min(self.levels.len()) {
+            let end = end.min(self.levels.len());
+            let most = if first < end { furthest([a, b, c]) } else { continue };
+            for (index, level) in self.levels[..end].iter_mut().enumerate().skip(first) {
+                // Most triangles lie where others reach further.
+                if level.iter().zip(most).all(|(level, most)| most <= *level) {
+                    continue;
+                }
                 let y = self.low + LEVEL * (index as f64 + 0.5);
                 if let Some(ends) = cut_at([a, b, c], y) {
-                    add(&mut self.levels[index], ends);
+                    add(level, ends);
                 }
             }
         }
         self
     }
+}
+
+/// What no cut of a triangle reaches beyond.
+fn furthest(corners: [DVec3; 3]) -> Level {
+    let [least, most] = [DVec3::min, DVec3::max].map(|of| corners.into_iter().reduce(of).unwrap_or_default());
+    let beside = |(low, high, sign): (f64, f64, f64)| {
+        let meets = |from: f64, to: f64| from <= high && to >= low;
+        let meets = meets(least.x, most.x) || meets(-most.x, -least.x);
+        if meets { (sign * least.z).max(sign * most.z) } else { f64::NEG_INFINITY }
+    };
+    let [front, before, behind, aside] = BANDS.map(beside);
+    [most.x.max(-least.x), front, before, behind, aside]
 }
 
 /// Adds the line from `a` to `b`.

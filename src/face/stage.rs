@@ -2,27 +2,26 @@
 
 use super::FaceShape;
 use super::head::HeadFrame;
-use super::kernel::{Follower, STEPS, Way, along, pieces};
+use super::kernel::{Follower, STEPS, along, pieces};
 use super::rows::Rows;
-use crate::geometry::Mapped;
 use crate::geometry::cells::CellMap;
+use crate::geometry::{Mapped, Moved};
 use crate::parallel;
 use glam::{DMat3, DVec3, Vec3};
 
 /// The head's first row, Eqs. 12 and 13.
 impl FaceShape {
     /// Where a point goes that is at `to` already and takes `share` of the map; what keeps its shape goes as its `middle`.
-    pub fn apply(&self, to: Mapped, share: f64, middle: Option<DVec3>) -> Mapped {
-        let from = middle.unwrap_or(to.position);
+    pub fn apply<M: Moved>(&self, to: M, share: f64, middle: Option<DVec3>) -> M {
+        let from = middle.unwrap_or(to.position());
         if share <= 0.0 {
             return to;
         }
-        let face = self.map(from);
-        let bent = (face.jacobian - DMat3::IDENTITY) * share * to.jacobian;
-        Mapped {
-            position: to.position + share * (face.position - from),
-            jacobian: if middle.is_none() { to.jacobian + bent } else { to.jacobian },
-        }
+        let face: M = self.map(from);
+        M::of(to.position() + share * (face.position() - from), || {
+            let bent = (face.jacobian() - DMat3::IDENTITY) * share * to.jacobian();
+            if middle.is_none() { to.jacobian() + bent } else { to.jacobian() }
+        })
     }
 }
 
@@ -76,6 +75,16 @@ struct Ways {
 
 const NO_WAY: u32 = u32::MAX;
 
+/// Vertices of a head, and where the stages before the face step put them.
+pub struct HeadPoints<'a> {
+    /// Which they are.
+    pub vertices: &'a [u32],
+    /// Where each is, and how it takes part.
+    pub points: &'a [(DVec3, FaceBinding)],
+    /// How many vertices the figure has.
+    pub count: usize,
+}
+
 /// Where a way that is kept begins: in single precision, 3e-8 head lengths. So a head that is only moved or made larger gives the
 /// same to the bit, and its ways need not be followed again.
 fn beginning(frame: &HeadFrame, p: DVec3) -> Vec3 {
@@ -86,15 +95,14 @@ impl YoungFace {
     /// The step that moves a head at `frame` by `rows`.
     ///
     /// - `things`: where the stages before put the vertices of each thing that keeps its shape.
-    /// - `points`, `bindings`: where they put all vertices, and how each takes part.
+    /// - `head`: where they put the head's vertices.
     /// - `known`: a step for the same things and vertices, of which that is taken that is the same.
     /// - `threads`: at most this many, 0 for all cores.
     pub fn new(
         frame: HeadFrame,
         rows: Rows,
         things: &[Vec<DVec3>],
-        points: &[DVec3],
-        bindings: &[FaceBinding],
+        head: &HeadPoints,
         known: Option<&Self>,
         threads: usize,
     ) -> Self {
@@ -107,7 +115,7 @@ impl YoungFace {
             known.cloned().unwrap_or_else(|| face.piece(from))
         };
         face.pieces = things.iter().enumerate().map(piece).collect();
-        face.ways = face.ways_of(points, bindings, known.map(|known| &known.ways), threads);
+        face.ways = face.ways_of(head, known.map(|known| &known.ways), threads);
         face
     }
 
@@ -185,47 +193,40 @@ impl YoungFace {
         self.rows.painted(self.frame.to_unit(p)).map(|weight| f64::from(share) * weight)
     }
 
-    /// The ways of vertices that the stages before put at `points`, of which those are taken from `known` that are the same.
-    fn ways_of(
-        &self,
-        points: &[DVec3],
-        bindings: &[FaceBinding],
-        known: Option<&Ways>,
-        threads: usize,
-    ) -> Ways {
+    /// The ways of the head's vertices, of which those are taken from `known` that are the same.
+    fn ways_of(&self, head: &HeadPoints, known: Option<&Ways>, threads: usize) -> Ways {
         let follower = |is_hair: bool| if is_hair { &self.hair } else { &self.skin };
         // What begins at one place and goes one way is one: seams repeat it.
-        let mut rows = vec![NO_WAY; points.len()];
+        let mut rows = vec![NO_WAY; head.count];
         let mut row_of: CellMap<([u32; 3], bool), u32> = CellMap::default();
         let mut from: Vec<(Vec3, bool)> = Vec::new();
-        for (vertex, row) in rows.iter_mut().enumerate() {
-            let is_hair = match bindings[vertex] {
+        for (&vertex, &(p, binding)) in head.vertices.iter().zip(head.points) {
+            let is_hair = match binding {
                 FaceBinding::Skin(share) if share > 0.0 => false,
                 FaceBinding::Hair(share) if share > 0.0 => true,
                 _ => continue,
             };
-            let p = beginning(&self.frame, points[vertex]);
-            *row = *row_of.entry((p.to_array().map(f32::to_bits), is_hair)).or_insert_with(|| {
+            let p = beginning(&self.frame, p);
+            let place = (p.to_array().map(f32::to_bits), is_hair);
+            rows[vertex as usize] = *row_of.entry(place).or_insert_with(|| {
                 from.push((p, is_hair));
                 from.len() as u32 - 1
             });
         }
         let known = known.filter(|known| known.rows == rows);
-        // Two at once, the last one twice where they are odd.
-        let ways = parallel::collect(threads, from.len().div_ceil(2), LEAST_WAYS, |pair| {
-            let of = [2 * pair, (2 * pair + 1).min(from.len() - 1)];
+        // Eight at once, the last one again where they are fewer.
+        let ways = parallel::collect(threads, from.len().div_ceil(8), LEAST_WAYS / 8, |eight| {
+            let of: [usize; 8] = std::array::from_fn(|next| (8 * eight + next).min(from.len() - 1));
             if let Some(known) = known.filter(|known| of.iter().all(|&row| known.from[row] == from[row])) {
                 return of.map(|row| known.ways[row]);
             }
-            let points = of.map(|row| from[row].0.as_dvec3());
-            let moves = |of: usize, way: Way| way.map(|p| (p - points[of]).as_vec3());
-            match of.map(|row| from[row].1) {
-                [one, other] if one == other => {
-                    let [first, second] = follower(one).ways(points);
-                    [moves(0, first), moves(1, second)]
-                }
-                both => [0, 1].map(|of| moves(of, follower(both[of]).way(points[of]))),
-            }
+            let points = of.map(|row| from[row].0);
+            let is_hair = of.map(|row| from[row].1);
+            let [skin, hair] = [false, true].map(|wanted| {
+                let some = is_hair.contains(&wanted);
+                if some { follower(wanted).ways(points) } else { Default::default() }
+            });
+            std::array::from_fn(|next| if is_hair[next] { hair[next] } else { skin[next] })
         });
         let mut ways = ways.into_flattened();
         ways.truncate(from.len());

@@ -66,12 +66,12 @@ pub fn to_measure(character: &Character) -> usize {
 
 /// Making a deformer.
 pub fn to_deform(character: &Character) -> usize {
-    Size::of(character).bytes([430, 560, 0, 16])
+    Size::of(character).bytes([470, 560, 0, 16])
 }
 
 /// Changing a deformer's style: its target is not measured again. Young faces, hair and clothes ask for themselves.
 pub fn to_change_style(character: &Character) -> usize {
-    CHARTED.saturating_add(Size::of(character).bytes([120, 0, 0, 0]))
+    CHARTED.saturating_add(Size::of(character).bytes([145, 0, 0, 0]))
 }
 
 /// Changing a deformer's options.

@@ -7,14 +7,15 @@ use crate::face::head::HeadFrame;
 use crate::face::outline::{Outline, rounded};
 use crate::face::rows::{FaceAim, Rows};
 use crate::face::seat::Seat;
-use crate::face::stage::{FaceBinding, YoungFace};
-use crate::geometry::{Mapped, bounds};
+use crate::face::stage::{FaceBinding, HeadPoints, YoungFace};
+use crate::geometry::bounds;
 use crate::options::{FaceCurve, Stage};
+use crate::parallel;
 use crate::room::{self, Of};
 use crate::shape::Measured;
 use crate::shape::field::{Binding, Field, Finish};
 use crate::shape::measured::is_of_head;
-use crate::shape::placement::{Body, renewed};
+use crate::shape::placement::Body;
 use crate::shape::product::anatomy::Proportions;
 use crate::shape::product::coefficients::lost;
 use crate::shape::product::face_input::head_frame;
@@ -97,14 +98,17 @@ pub fn make_young(view: &View) -> Result<Option<Arc<YoungFace>>> {
     let placement = body.placement(&measured.figure, &field, &[], view.threads());
     let things: Vec<Vec<DVec3>> =
         view.parts()?.parts.things.iter().map(|vertices| placement.vertices(vertices)).collect();
-    let binding = |binding: &Binding| binding.parts().map_or(FaceBinding::None, |parts| parts.face);
-    let squashed = renewed(view.threads(), Arc::clone(&body.placed), &body.bindings.of_head, |vertex| {
-        field.squash(Mapped::unmoved(body.placed[vertex]), &body.bindings.vertices[vertex]).position
+    let (vertices, count) = (&body.bindings.of_head[..], body.placed.len());
+    let points = parallel::collect(view.threads(), vertices.len(), parallel::FEW, |index| {
+        let vertex = vertices[index] as usize;
+        let binding = &body.bindings.vertices[vertex];
+        let of_face = binding.parts().map_or(FaceBinding::None, |parts| parts.face);
+        (field.squash(body.placed[vertex], binding), of_face)
     });
-    let bindings: Vec<FaceBinding> = body.bindings.vertices.iter().map(binding).collect();
+    let head = HeadPoints { vertices, points: &points, count };
     // What is the same as last time is taken from there.
     let known = view.before::<Option<Arc<YoungFace>>>().and_then(|known| (*known).clone());
-    let young = YoungFace::new(frame, rows, &things, &squashed, &bindings, known.as_deref(), view.threads());
+    let young = YoungFace::new(frame, rows, &things, &head, known.as_deref(), view.threads());
     Ok(Some(Arc::new(young)))
 }
 

@@ -259,7 +259,7 @@ impl Deformer {
         let share = (field.youth * field.finish.amount).clamp(0.0, 1.0);
         let weights = |vertex: usize| {
             let binding = &body.bindings.vertices[vertex];
-            let at = field.squash(Mapped::unmoved(body.placed[vertex]), binding).position;
+            let at = field.squash(body.placed[vertex], binding);
             let face = binding.parts().map_or(FaceBinding::None, |parts| parts.face);
             young.painted(at, face).map(|weight| (share * weight) as f32)
         };

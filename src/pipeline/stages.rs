@@ -233,8 +233,9 @@ fn shape_body(view: &View) -> Result<Body> {
         Mode::Paper => paper::equations::body(view.character(), &measured, style, options),
         Mode::Product => {
             let (parts, heads) = (view.parts()?, view.head_sources()?);
+            let known = view.before::<Body>();
             view.part(0.0, 1.0, |progress| {
-                product::body::body(&measured, &parts, &heads, style, options, progress)
+                product::body::body(&measured, &parts, &heads, style, options, known.as_deref(), progress)
             })
         }
     }

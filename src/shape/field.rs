@@ -12,7 +12,7 @@ use crate::character::Frame;
 use crate::face::FaceShape;
 use crate::face::seat::Seat;
 use crate::face::stage::{FaceBinding, YoungFace};
-use crate::geometry::Mapped;
+use crate::geometry::{Mapped, Moved};
 use glam::{DMat3, DVec3, Vec3};
 use std::sync::Arc;
 
@@ -104,22 +104,20 @@ impl Default for Finish {
 impl Finish {
     /// Part of the way from `p` to where the body's field takes it.
     #[inline(always)]
-    fn apply(&self, p: DVec3, to: Mapped) -> Mapped {
-        let Mapped { position, jacobian } = self.grown(to, self.whole);
+    fn apply<M: Moved>(&self, p: DVec3, to: M) -> M {
+        let to = self.grown(to, self.whole);
         // Written so that amount 0 gives p itself, bit for bit.
-        let to = Mapped {
-            position: p + self.amount * (position - p) + DVec3::Y * self.ground,
-            jacobian: DMat3::IDENTITY + (jacobian - DMat3::IDENTITY) * self.amount,
-        };
-        self.grown(to, self.size)
+        let position = p + self.amount * (to.position() - p) + DVec3::Y * self.ground;
+        let jacobian = || DMat3::IDENTITY + (to.jacobian() - DMat3::IDENTITY) * self.amount;
+        self.grown(M::of(position, jacobian), self.size)
     }
 
     #[inline(always)]
-    fn grown(&self, to: Mapped, size: f64) -> Mapped {
+    fn grown<M: Moved>(&self, to: M, size: f64) -> M {
         if size == 1.0 {
             return to;
         }
-        Mapped { position: self.about + size * (to.position - self.about), jacobian: to.jacobian * size }
+        M::of(self.about + size * (to.position() - self.about), || to.jacobian() * size)
     }
 
     /// How much of the whole way is left.
@@ -201,6 +199,14 @@ impl Field {
         Self { body, young: None, youth: 0.0, seat: None, seat_amount: 0.0, finish: Finish::default() }
     }
 
+    /// Product mode's parts; `None` in paper mode.
+    pub fn parts(&self) -> Option<&PartField> {
+        match &*self.body {
+            BodyField::Parts(parts) => Some(parts),
+            BodyField::Bones(_) => None,
+        }
+    }
+
     /// Where `p` goes.
     pub fn place(&self, p: DVec3, binding: &Binding) -> DVec3 {
         self.place_from(p, self.place_body(p, binding), binding, None)
@@ -208,7 +214,7 @@ impl Field {
 
     /// As [`Self::place`], for a point, which may be a vertex, that is at `p` and that the body's field takes to `placed`.
     pub fn place_from(&self, p: DVec3, placed: DVec3, binding: &Binding, vertex: Option<usize>) -> DVec3 {
-        let squashed = self.squash(Mapped::unmoved(placed), binding).position;
+        let squashed = self.squash(placed, binding);
         let to = match binding {
             Binding::Parts(binding) => {
                 let to = match &self.young {
@@ -225,7 +231,7 @@ impl Field {
             Binding::Bones(_) => squashed,
             Binding::Fixed => return p,
         };
-        self.finish.apply(p, Mapped::unmoved(to)).position
+        self.finish.apply(p, to)
     }
 
     /// Where the body's field alone takes `p`.
@@ -241,14 +247,14 @@ impl Field {
     pub fn opens_lids(&self, p: DVec3, binding: &Binding) -> f64 {
         match (&self.young, binding) {
             (Some(young), Binding::Parts(PartBinding { face: FaceBinding::Skin(_), .. })) => {
-                young.opens_lids(self.squash(Mapped::unmoved(self.place_body(p, binding)), binding).position)
+                young.opens_lids(self.squash(self.place_body(p, binding), binding))
             }
             _ => 0.0,
         }
     }
 
     /// The head's first row: where the face map (Eqs. 12 and 13) takes what the body's field takes `to`.
-    pub fn squash(&self, to: Mapped, binding: &Binding) -> Mapped {
+    pub fn squash<M: Moved>(&self, to: M, binding: &Binding) -> M {
         if self.finish.face == FaceShape::None {
             return to;
         }

@@ -1,15 +1,17 @@
 //! How the target hangs on a field, and where the field takes its points.
 
 use super::Coefficient;
-use super::field::{Binding, BodyField, Field, Finish};
+use super::field::{Binding, Field, Finish};
 use super::figure::{Figure, extent};
+use super::product::body::Attempt;
 use super::product::part::Part;
 use super::product::parts_field::PartField;
+use super::product::profile::radius_map::Spot;
 use crate::character::{Character, Role};
 use crate::error::Warning;
 use crate::face::FaceShape;
 use crate::face::stage::FaceBinding;
-use crate::geometry::{marked, range};
+use crate::geometry::{Rows, marked, range};
 use crate::parallel;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -49,6 +51,8 @@ pub struct Body {
     pub warnings: Vec<Warning>,
     /// What is left of a head count that could not be reached.
     pub heads_left: Option<Warning>,
+    /// The fields that were tried for it, one after the other; none in paper mode.
+    pub attempts: Vec<Attempt>,
 }
 
 impl Body {
@@ -59,10 +63,7 @@ impl Body {
 
     /// Product mode's parts; `None` in paper mode.
     pub fn parts(&self) -> Option<&PartField> {
-        match &*self.field.body {
-            BodyField::Parts(parts) => Some(parts),
-            BodyField::Bones(_) => None,
-        }
+        self.field.parts()
     }
 
     /// What is done last, all the way and without a younger face, for a figure that shrinks by `whole`.
@@ -97,6 +98,8 @@ pub struct Bindings {
     pub of_head: Vec<u32>,
     /// Joints that play eyes, and the vertices that each moves most; none in paper mode.
     pub eyes: Vec<(usize, Vec<u32>)>,
+    /// Where vertices are on the maps of the body's relief; none in paper mode.
+    pub spots: Rows<(u8, Spot)>,
 }
 
 impl Bindings {
@@ -104,7 +107,7 @@ impl Bindings {
     pub fn new(vertices: Vec<Binding>, joints: Vec<Binding>, ground: GroundContact) -> Self {
         let of_head =
             (0..vertices.len() as u32).filter(|&vertex| is_of_head(&vertices[vertex as usize])).collect();
-        Self { vertices, joints, ground, of_head, eyes: Vec::new() }
+        Self { vertices, joints, ground, of_head, eyes: Vec::new(), spots: Rows::default() }
     }
 }
 
@@ -212,7 +215,13 @@ impl<'a> Placement<'a> {
 
     /// Where the body of the field alone takes `vertex`, canonical frame.
     pub fn by_body(&self, vertex: usize) -> DVec3 {
-        self.field.place_body(self.figure.positions[vertex], &self.bindings.vertices[vertex])
+        let (p, binding) = (self.figure.positions[vertex], &self.bindings.vertices[vertex]);
+        match (self.field.parts(), binding) {
+            (Some(parts), Binding::Parts(binding)) => {
+                parts.place_known(p, binding, self.bindings.spots.of(vertex))
+            }
+            _ => self.field.place_body(p, binding),
+        }
     }
 
     /// Where every vertex goes, canonical frame.

@@ -48,6 +48,7 @@ pub fn body(character: &Character, measured: &Measured, style: &Style, options: 
         coefficients: found.groups,
         warnings: found.warnings,
         heads_left: None,
+        attempts: Vec::new(),
     })
 }
 

@@ -49,6 +49,22 @@ impl PartBinding {
         }
     }
 
+    /// True for what the body carries from where it is at rest, and nothing else does.
+    pub fn is_plain(&self) -> bool {
+        matches!(self.attachment, Attachment::Plain | Attachment::OnFace(_))
+    }
+
+    /// True for what goes where it went before these changes of parts, as [`PartField::changes`] gives them; false where that is
+    /// not known.
+    ///
+    /// [`PartField::changes`]: super::parts_field::PartField::changes
+    pub fn stays(&self, changes: &PartWeights) -> bool {
+        let changed = changes.iter().zip(&self.weights).map(|(change, weight)| change * weight != 0.0);
+        // To look at all of them is sooner than to stop at one.
+        !changed.fold(false, |any, changed| any | changed)
+            && !matches!(self.attachment, Attachment::Piece(_) | Attachment::Strand { .. })
+    }
+
     /// True for what follows the bones of an arm.
     pub fn is_on_bone(&self) -> bool {
         self.attachment == Attachment::OnBone
@@ -128,14 +144,15 @@ pub fn part_bindings(
     };
     let Pieces { mut attachments, pieces, of_joints } = Pieces::of(&sources);
     let digits: Vec<Option<usize>> = Role::all().map(digit_of).collect();
-    for (attachment, row) in attachments.iter_mut().zip(&figure.role_weights) {
+    for ((attachment, row), weights) in attachments.iter_mut().zip(&figure.role_weights).zip(&weights) {
         let mut shares = [0.0; 5];
         for &(role, weight) in row {
             if let Some(digit) = digits[role as usize] {
                 shares[digit] += weight as f32;
             }
         }
-        if *attachment == Attachment::Plain && shares != [0.0; 5] {
+        let of_arms = arm_share(weights, 0) + arm_share(weights, 1);
+        if *attachment == Attachment::Plain && shares != [0.0; 5] && of_arms > 0.0 {
             *attachment = Attachment::Digits(shares);
         }
     }

@@ -16,7 +16,6 @@ use crate::shape::field::{BodyField, Field};
 use crate::shape::placement::{Body, Placement};
 use crate::shape::style::Style;
 use crate::shape::{BodyShape, Measured};
-use glam::DVec3;
 use std::sync::Arc;
 
 /// A head count as near as this to the one asked for needs no correction. D27. Seen: ±30 % moves vertices by up to .004
@@ -33,6 +32,7 @@ const HAIR_WARNED_ABOVE: f64 = 0.1;
 /// The product's way to give a target the style.
 ///
 /// - `heads`: what its head count is read from.
+/// - `known`: what this gave before, of which that is taken that is the same.
 ///
 /// # Errors
 /// `BadStyle` for a style without proportions; as [`part_coefficients`]; `Cancelled`.
@@ -42,8 +42,10 @@ pub fn body(
     heads: &HeadSources,
     style: &Style,
     options: &Options,
+    known: Option<&Body>,
     progress: &mut Progress,
 ) -> Result<Body> {
+    let known = known.filter(|known| Arc::ptr_eq(&known.bindings, &product.bindings));
     let anatomy = &measured.anatomy;
     let head_length = anatomy.proportions.head_length;
     let (wanted, head_ratio) = match style {
@@ -74,27 +76,36 @@ pub fn body(
         warnings.extend(already_super_deformed(own, wanted, lost));
     }
     let limbs = limbs.as_ref();
-    let request = Request { measured, product, heads, style, options, groups: &groups, asked, lost, limbs };
-    let best = request.best(&mut progress.part(0.0, 0.5))?;
+    let attempts_before = known.map_or(&[][..], |known| &known.attempts);
+    let groups = &groups;
+    let request =
+        Request { measured, product, heads, style, options, groups, asked, lost, limbs, attempts_before };
+    let attempts = request.attempts(&mut progress.part(0.0, 0.5))?;
+    let best = attempts.iter().min_by(|one, other| one.error.total_cmp(&other.error));
+    let best = best.expect("there is a first attempt");
     warnings.extend(best.limits.warnings(best.measured, asked));
-    let heads_left = request.heads_left(&best);
-    let Attempt { field, coefficients, limited, heads: head_count, positions, .. } = best;
-    warnings.extend(limited);
+    let heads_left = request.heads_left(best);
+    warnings.extend(best.limited.clone());
     progress.at(0.5)?;
-    let placement = Placement::new(&measured.figure, &product.bindings, &field, options.thread_count);
+    let placement = Placement::new(&measured.figure, &product.bindings, &best.field, options.thread_count);
+    let stays = stays(&best.field, known.map(|known| &known.field), product);
     let placed = placement.collect(measured.figure.positions.len(), |vertex| {
-        let known = positions.get(heads.slots[vertex] as usize);
-        known.copied().unwrap_or_else(|| placement.by_body(vertex))
+        match (known, best.placed.positions.get(heads.slots[vertex] as usize)) {
+            (Some(known), _) if stays(vertex) => known.placed[vertex],
+            (_, Some(&placed)) => placed,
+            _ => placement.by_body(vertex),
+        }
     });
     Ok(Body {
-        field,
+        field: best.field.clone(),
         bindings: Arc::clone(&product.bindings),
         placed: Arc::new(placed),
         head_ratio,
-        heads: Some(head_count),
-        coefficients: coefficients.by_group(&groups),
+        heads: Some(best.heads),
+        coefficients: best.coefficients.by_group(groups),
         warnings,
         heads_left,
+        attempts,
     })
 }
 
@@ -138,8 +149,23 @@ fn hair_shortened(parts: &PartBindings, head_length: f64) -> Option<Warning> {
     })
 }
 
+/// Whether a vertex goes where the field `before` took it.
+fn stays<'a>(
+    now: &Field,
+    before: Option<&Field>,
+    product: &'a ProductTarget,
+) -> impl Fn(usize) -> bool + use<'a> {
+    let changes = before.and_then(|before| Some(now.parts()?.changes(before.parts()?)));
+    let bindings = &product.bindings.vertices;
+    move |vertex| {
+        let binding = bindings[vertex].parts();
+        changes.as_ref().zip(binding).is_some_and(|(changes, binding)| binding.stays(changes))
+    }
+}
+
 /// A field that was tried.
-struct Attempt {
+#[derive(Debug)]
+pub struct Attempt {
     field: Field,
     /// Of parts and slices together.
     coefficients: PartCoefficients,
@@ -153,8 +179,8 @@ struct Attempt {
     /// |ln| of how far the head count is from what can be reached: of the one measured, or, for a target without a chin, of
     /// that of its parts' lengths.
     error: f64,
-    /// Where the field takes the vertices that the head count is read from.
-    positions: Vec<DVec3>,
+    /// Where the field puts what the head count is read from.
+    placed: HeadPlacement,
 }
 
 /// What is asked for, of whom.
@@ -171,6 +197,8 @@ struct Request<'a> {
     lost: f64,
     /// The limbs that a target gets whose head and trunk are one.
     limbs: Option<&'a Proportions>,
+    /// What was tried when other things were asked for.
+    attempts_before: &'a [Attempt],
 }
 
 impl Request<'_> {
@@ -192,24 +220,32 @@ impl Request<'_> {
         })
     }
 
-    /// The better of two fields: one that aims at as many heads as are asked for, and, where that misses them, one that aims as
-    /// much further. What that leaves is less than the row of rays that a chin is read by.
-    fn best(&self, progress: &mut Progress) -> Result<Attempt> {
+    /// One field or two: one that aims at as many heads as are asked for, and, where that misses them, one that aims as much
+    /// further. What that leaves is less than the row of rays that a chin is read by.
+    fn attempts(&self, progress: &mut Progress) -> Result<Vec<Attempt>> {
         let profile = profile_of(self.style, self.options, self.lost);
-        let first = self.attempt(self.asked, profile.as_ref())?;
+        let first = self.attempt(self.asked, profile.as_ref(), self.attempts_before.first())?;
         if first.error <= HEADS_TOLERANCE || first.limits.act_on_heads() || self.lost == 0.0 {
-            return Ok(first);
+            return Ok(vec![first]);
         }
         progress.at(0.5)?;
         let (least, most) = HEADS_CORRECTION;
         let further = ((self.asked - 1.0) / (first.measured - 1.0)).clamp(least, most);
-        let second = self.attempt((self.asked - 1.0) * further + 1.0, profile.as_ref())?;
-        Ok(if second.error < first.error { second } else { first })
+        let aim = (self.asked - 1.0) * further + 1.0;
+        let second = self.attempt(aim, profile.as_ref(), self.attempts_before.get(1))?;
+        Ok(vec![first, second])
     }
 
     /// One field, for a style with everything below the head stretched by what makes the result `aim` heads tall.
-    fn attempt(&self, aim: f64, profile: Option<&(Profile, f64)>) -> Result<Attempt> {
-        let &Self { measured: target, product, heads, style, options, groups, asked, lost, limbs } = self;
+    ///
+    /// - `before`: another one, of which that is taken that is the same.
+    fn attempt(
+        &self,
+        aim: f64,
+        profile: Option<&(Profile, f64)>,
+        before: Option<&Attempt>,
+    ) -> Result<Attempt> {
+        let &Self { measured: target, product, heads, style, options, groups, asked, lost, limbs, .. } = self;
         let anatomy = &target.anatomy;
         let stretched;
         let goal = match (style, limbs) {
@@ -237,16 +273,23 @@ impl Request<'_> {
         let field = parts.with(slices, &product.parts.pieces);
         let field = Field::of(Arc::new(BodyField::Parts(Box::new(field))));
         let placement = Placement::new(&target.figure, &product.bindings, &field, options.thread_count);
-        let of_head = |index| placement.by_body(heads.vertices[index] as usize);
+        let stays = stays(&field, before.map(|before| &before.field), product);
+        let of_head = |index: usize| {
+            let vertex = heads.vertices[index] as usize;
+            match before {
+                Some(before) if stays(vertex) => before.placed.positions[index],
+                _ => placement.by_body(vertex),
+            }
+        };
         let positions = placement.collect(heads.vertices.len(), of_head);
         let placed = HeadPlacement::of(&target.figure, positions, |joint| placement.joint(joint));
-        let measured = heads.heads(&placed);
+        let same = before.filter(|before| before.placed == placed);
+        let measured = same.map_or_else(|| heads.heads(&placed), |before| before.measured);
         let heads = if limits.act_on_heads() { limits.heads } else { asked };
         // A chin that the target does not show is no more to be believed where the result shows one: a ball's underside
         // steps back here or there, as last digits say. So it corrects nothing, and is only warned of.
         let read = if anatomy.landmarks.chin_seen { measured } else { limits.heads };
         let error = (read / heads).ln().abs();
-        let positions = placed.positions;
-        Ok(Attempt { field, coefficients, limits, limited, heads, measured, error, positions })
+        Ok(Attempt { field, coefficients, limits, limited, heads, measured, error, placed })
     }
 }

@@ -171,6 +171,7 @@ struct HeadTriangles {
 }
 
 /// Where what [`HeadSources`] lists is.
+#[derive(Debug, PartialEq)]
 pub struct HeadPlacement {
     /// By [`HeadSources::vertices`].
     pub positions: Vec<DVec3>,
@@ -194,9 +195,15 @@ impl HeadSources {
         // No row of rays that looks for the chin is as far below the shoulders, nor will be when the torso has become shorter.
         let shoulder_line = shoulder_line(figure, |joint| figure.joints[joint]);
         let lowest = shoulder_line - 0.5 * (figure.extent.1 - shoulder_line);
-        let mut upper = upper_triangles(figure);
-        upper.retain(|corners| corners.iter().any(|&vertex| figure.positions[vertex as usize].y > lowest));
         let (mut bare, mut with_hair, mut soles) = (of_head(true), of_head(false), soles(figure));
+        // Nor is any as far aside as half the head's width, which is six times as far as they are at rest.
+        let (middle, aside) = middle(&figure.positions, &bare.vertices)
+            .map_or((0.0, f64::INFINITY), |(middle, half)| (middle.x, half.x));
+        let mut upper = upper_triangles(figure);
+        upper.retain(|corners| {
+            let (low, high) = bounds(corners.iter().map(|&vertex| figure.positions[vertex as usize]));
+            high.y > lowest && low.x < middle + aside && high.x > middle - aside
+        });
         // Without a head the highest point of all is the crown, without legs the lowest one the sole.
         let vertices: Vec<u32> = if with_hair.all.is_empty() || soles.is_empty() {
             (0..figure.positions.len() as u32).collect()

@@ -12,6 +12,8 @@ use super::pieces::{Attachment, Piece};
 use super::profile::Slices;
 use super::profile::chains::arm_share;
 use super::profile::map::chain_of;
+use super::profile::radius_map::Spot;
+use super::profile::relief::Relief;
 use super::scales::{HeadScale, PartCoefficients, Scale};
 use crate::geometry::{Mapped, Moved, outer};
 use crate::shape::heights::Heights;
@@ -104,6 +106,30 @@ impl PartField {
         self
     }
 
+    /// By part, 0 where it does what `other` does, a field of the same figure, else 1.
+    pub fn changes(&self, other: &Self) -> PartWeights {
+        let levels = |field: &Self| [field.after.sole, field.after.crotch, field.after.shoulder_line];
+        let torso = |field: &Self| (field.coefficients.torso, field.yoke_slope, field.hip_z);
+        let neck = |field: &Self| (field.coefficients.neck, field.neck_z);
+        let is_same = |part: usize| match part {
+            TORSO => {
+                self.anatomy.centre_line == other.anatomy.centre_line
+                    && torso(self) == torso(other)
+                    && levels(self) == levels(other)
+            }
+            NECK => neck(self) == neck(other) && levels(self) == levels(other),
+            HAIR => self.affine[HEAD] == other.affine[HEAD],
+            _ => self.affine[part] == other.affine[part],
+        };
+        let are_sliced = |part: usize| match (&self.slices, &other.slices) {
+            // What head and hair alone move, no slice does.
+            _ if part == HEAD || part == HAIR => true,
+            (Some(own), Some(other)) => own.are_as(other, part),
+            (own, other) => own.is_none() && other.is_none(),
+        };
+        std::array::from_fn(|part| if is_same(part) && are_sliced(part) { 0.0 } else { 1.0 })
+    }
+
     /// Its coefficients.
     pub fn coefficients(&self) -> &PartCoefficients {
         &self.coefficients
@@ -157,6 +183,14 @@ impl PartField {
         }
     }
 
+    /// As [`Self::place`], of a point whose spots are known.
+    pub fn place_known(&self, p: DVec3, binding: &PartBinding, spots: &[(u8, Spot)]) -> DVec3 {
+        match binding.is_plain() {
+            true => self.body_by(p, binding, |relief, p| relief.map_known(p, spots)),
+            false => self.place(p, binding),
+        }
+    }
+
     /// Where `p` goes, and the Jacobian there at fixed binding.
     pub fn map(&self, p: DVec3, binding: &PartBinding) -> Mapped {
         match binding.attachment {
@@ -181,6 +215,17 @@ impl PartField {
     /// Where relief, slices and parts take `p`: the parts alone, where a body of next to no length gives no number.
     #[inline(always)]
     fn body<M: Moved>(&self, p: DVec3, binding: &PartBinding) -> M {
+        self.body_by(p, binding, |relief, p| relief.map(p, &binding.weights, binding.is_skirt))
+    }
+
+    /// The same, where relief takes what comes before it as `smooth` says.
+    #[inline(always)]
+    fn body_by<M: Moved>(
+        &self,
+        p: DVec3,
+        binding: &PartBinding,
+        smooth: impl FnOnce(&Relief, DVec3) -> M,
+    ) -> M {
         let PartBinding { weights, is_skirt, .. } = binding;
         let unmoved = M::of(p, || DMat3::IDENTITY);
         let to: M = match &self.slices {
@@ -193,7 +238,7 @@ impl PartField {
                     Attachment::Digits(shares) => slices.map.digits(p, weights, shares),
                     _ => unmoved,
                 };
-                let smooth: M = slices.relief.map(first.position(), weights, *is_skirt);
+                let smooth = smooth(&slices.relief, first.position());
                 let smooth = M::of(smooth.position(), || smooth.jacobian() * first.jacobian());
                 let mut known = (PART_COUNT, smooth);
                 self.blend(weights, |part| {
@@ -353,7 +398,7 @@ impl PartField {
 }
 
 /// True for what head and hair alone move: no slice of the body does.
-fn is_of_head(weights: &PartWeights) -> bool {
+pub fn is_of_head(weights: &PartWeights) -> bool {
     weights.iter().enumerate().all(|(part, &weight)| weight == 0.0 || part == HEAD || part == HAIR)
 }
 

@@ -58,9 +58,12 @@ impl ProductTarget {
             let found = of_neck.or_else(|| arm_binding(figure, joint)).or(means[joint]);
             Binding::Parts(found.unwrap_or_else(|| joint_binding(figure, &parts, joint)))
         });
+        let chart = Chart::of(measured, threads);
+        let spots = chart.spots(figure, &vertices);
         let vertices = vertices.into_iter().map(Binding::Parts).collect();
-        let bindings = Bindings { eyes: eyes(character, figure), ..Bindings::new(vertices, joints, ground) };
-        Ok(Self { bindings: Arc::new(bindings), parts, chart: Chart::of(measured, threads) })
+        let bindings =
+            Bindings { eyes: eyes(character, figure), spots, ..Bindings::new(vertices, joints, ground) };
+        Ok(Self { bindings: Arc::new(bindings), parts, chart })
     }
 }
 

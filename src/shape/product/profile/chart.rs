@@ -2,16 +2,19 @@
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
 use super::cuts::{BodyFrame, BodyLines, on_limb};
+use super::radius_map::Spot;
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
 use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
-use crate::geometry::{self, smoothstep};
+use crate::geometry::{self, Rows, smoothstep};
 use crate::shape::Measured;
+use crate::shape::figure::Figure;
+use crate::shape::product::binding::PartBinding;
 use crate::shape::product::part::Part;
-use crate::shape::product::parts_field::PartField;
+use crate::shape::product::parts_field::{PartField, is_of_head};
 use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::DVec2;
 
@@ -49,6 +52,18 @@ impl Chart {
         let frame = BodyFrame::of(figure, anatomy);
         let reaches = Reaches::of(figure, chains, weld, &frame, threads);
         Self { own: shape.profile.clone().unwrap_or_default(), lines: lines.clone(), frame, reaches }
+    }
+
+    /// The spots of every vertex of `figure` that slices move from where it is at rest.
+    pub fn spots(&self, figure: &Figure, bindings: &[PartBinding]) -> Rows<(u8, Spot)> {
+        let mut spots = Rows { starts: vec![0], things: Vec::new() };
+        for (binding, &p) in bindings.iter().zip(&figure.positions) {
+            if binding.is_plain() && !is_of_head(&binding.weights) {
+                self.reaches.add_spots(&mut spots.things, &self.frame, p, &binding.weights, binding.is_skirt);
+            }
+            spots.starts.push(spots.things.len() as u32);
+        }
+        spots
     }
 
     /// The frame that it was measured in.
@@ -355,6 +370,11 @@ impl<'a> Grows<'a> {
 }
 
 impl Slices {
+    /// Whether what is done to what part number `part` moves is what the same body's slices `other` do.
+    pub fn are_as(&self, other: &Self, part: usize) -> bool {
+        self.relief.is_as(&other.relief, part) && self.map.is_as(&other.map, part)
+    }
+
     /// A warning that names what soft limits took more than a tenth of.
     pub fn limited(&self) -> Option<Warning> {
         let item = |(what, wanted, got): &(&str, f64, f64)| format!("{what} {wanted:.2} to {got:.2}");

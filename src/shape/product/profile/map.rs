@@ -70,7 +70,7 @@ pub struct BodyMap {
     neck: [f64; 6],
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct ArmMap {
     planes: Planes,
     /// Where the shoulder joint goes, less where it was.
@@ -88,7 +88,7 @@ struct ArmMap {
 }
 
 /// What makes a finger a part of a mitt: it lies beside the others, short and thick.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DigitMap {
     /// Where it leaves the hand, the unit vector from there to its last joint, and how far that is.
     root: DVec3,
@@ -105,7 +105,7 @@ pub(super) struct DigitMap {
     shift: DVec3,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct FootMap {
     ankle: DVec3,
     to: DVec3,
@@ -157,6 +157,20 @@ impl BodyMap {
         }
         map.arms = [0, 1].map(|side| map.arm(side, own, lines, scales));
         map
+    }
+
+    /// Whether what [`Self::part`] does for part number `part` is what the same body's map `other` does.
+    pub fn is_as(&self, other: &Self, part: usize) -> bool {
+        // Limbs begin with the torso's map, and skirts keep to it.
+        let own = match chain_of(part, false) {
+            NECK => self.neck == other.neck,
+            LEFT_ARM => self.arms[0] == other.arms[0],
+            RIGHT_ARM => self.arms[1] == other.arms[1],
+            LEFT_LEG | RIGHT_LEG => self.leg == other.leg && self.spread == other.spread,
+            LEFT_FOOT | RIGHT_FOOT => self.feet == other.feet,
+            _ => true,
+        };
+        own && self.torso == other.torso
     }
 
     /// Where `p` goes before the map of part number `part`.

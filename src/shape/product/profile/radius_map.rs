@@ -5,6 +5,9 @@ use crate::geometry::slice::{Outline, Planes, RAYS};
 use crate::geometry::whole::round;
 use crate::geometry::{Moved, median};
 use glam::{DMat2, DMat3, DVec2, DVec3};
+use std::iter::Sum;
+use std::ops::Mul;
+use std::sync::Arc;
 
 /// No reach counts for more than so many times the usual one of its cut.
 const FURTHEST: f64 = 1.6;
@@ -22,11 +25,20 @@ pub struct RadiusMap {
     /// Height between rows.
     pub step: f64,
     /// Middle of each row.
-    pub middles: Vec<DVec2>,
+    pub middles: Arc<[DVec2]>,
     /// By row, then direction.
-    pub reaches: Vec<Ring>,
+    pub reaches: Arc<[Ring]>,
     /// What the reaches are scaled by; none where nothing asks for that yet.
     pub scales: Vec<Ring>,
+}
+
+/// A point that stays, looked up once in a map whose scales change.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spot {
+    /// Its place among the rows, and among the directions.
+    at: [f64; 2],
+    /// How far it goes where the reach there becomes twice as long.
+    way: DVec3,
 }
 
 impl RadiusMap {
@@ -34,36 +46,21 @@ impl RadiusMap {
     /// middle, what lies further out moves as far as the surface does.
     #[inline(always)]
     pub fn shift<M: Moved>(&self, p: DVec3) -> M {
-        let (height, place) = self.planes.locate(p);
-        let row = Taps::new((height - self.start) / self.step);
-        let last = self.reaches.len() as i64 - 1;
-        let rows = row.indices.map(|index| index.clamp(0, last) as usize);
-        let mixed = |by: &[f64; 3]| -> DVec2 { (0..3).map(|tap| by[tap] * self.middles[rows[tap]]).sum() };
-        let arm = place - mixed(&row.weights);
+        let (at, arm) = self.locate(p);
         let distance = arm.length();
         if distance <= 0.0 {
             return M::of(DVec3::ZERO, || DMat3::ZERO);
         }
-        let turns = arm.y.atan2(arm.x) / std::f64::consts::TAU;
-        let ray = Taps::new(turns * RAYS as f64);
-        let rays = ray.indices.map(|index| index.rem_euclid(RAYS as i64) as usize);
-        // Of reaches or scales, by these weights of rows and of directions.
-        let read = |rings: &[Ring], by_row: &[f64; 3], by_ray: &[f64; 3]| -> f64 {
-            let along = |tap: usize| {
-                let ring = &rings[rows[tap]];
-                (0..3).map(|other| by_ray[other] * ring[rays[other]]).sum::<f64>()
-            };
-            (0..3).map(|tap| by_row[tap] * along(tap)).sum()
-        };
-        let reach = read(&self.reaches, &row.weights, &ray.weights);
-        let change = read(&self.scales, &row.weights, &ray.weights) - 1.0;
+        let (row, ray) = self.taps(at);
+        let read = |rings: &[Ring]| row.mixed(|at| ray.mixed(|other| rings[at][other]));
+        let (reach, change) = (read(&self.reaches), read(&self.scales) - 1.0);
         let outward = arm / distance;
         let far = change * distance.min(reach);
-        let lift = |v: DVec2| v.x * self.planes.across + v.y * self.planes.front;
-        M::of(lift(far * outward), || {
-            let by_height = |rings: &[Ring]| read(rings, &row.slopes, &ray.weights) / self.step;
-            let by_turn =
-                |rings: &[Ring]| read(rings, &row.weights, &ray.slopes) * RAYS as f64 / std::f64::consts::TAU;
+        M::of(self.lift(far * outward), || {
+            let by_height = |rings: &[Ring]| row.sloped(|at| ray.mixed(|other| rings[at][other])) / self.step;
+            let by_turn = |rings: &[Ring]| {
+                row.mixed(|at| ray.sloped(|other| rings[at][other])) * RAYS as f64 / std::f64::consts::TAU
+            };
             // How far outward, by distance, height and angle.
             let (far_by_distance, far_by_height, far_by_turn) = if distance < reach {
                 (change, by_height(&self.scales) * distance, by_turn(&self.scales) * distance)
@@ -77,10 +74,11 @@ impl RadiusMap {
             let outer = |a: DVec2, b: DVec2| DMat2::from_cols(a * b.x, a * b.y);
             let by_place = outer(outward, far_by_distance * outward + far_by_turn / distance * around)
                 + outer(around, around) * (far / distance);
-            let by_height = far_by_height * outward - by_place * mixed(&row.slopes) / self.step;
+            let middle_slope: DVec2 = row.sloped(|at| self.middles[at]);
+            let by_height = far_by_height * outward - by_place * middle_slope / self.step;
             let [axis, across, front] = [self.planes.axis, self.planes.across, self.planes.front];
             let column = |of: f64, x: f64, y: f64| {
-                lift(by_height) * of + lift(by_place.x_axis) * x + lift(by_place.y_axis) * y
+                self.lift(by_height) * of + self.lift(by_place.x_axis) * x + self.lift(by_place.y_axis) * y
             };
             DMat3::from_cols(
                 column(axis.x, across.x, front.x),
@@ -89,25 +87,77 @@ impl RadiusMap {
             )
         })
     }
+
+    /// The spot of `p`, so much of which the map moves.
+    pub fn spot(&self, p: DVec3, share: f64) -> Spot {
+        let (at, arm) = self.locate(p);
+        let (row, ray) = self.taps(at);
+        let reach: f64 = row.mixed(|at| ray.mixed(|other| self.reaches[at][other]));
+        Spot { at, way: self.lift(share * arm.clamp_length_max(reach)) }
+    }
+
+    /// How the map moves what is at a spot.
+    #[inline(always)]
+    pub fn shift_of(&self, spot: &Spot) -> DVec3 {
+        let (row, ray) = self.taps(spot.at);
+        (row.mixed(|at| ray.mixed(|other| self.scales[at][other])) - 1.0) * spot.way
+    }
+
+    /// The place of `p` among the rows and among the directions, and how far it is from its row's middle.
+    #[inline(always)]
+    fn locate(&self, p: DVec3) -> ([f64; 2], DVec2) {
+        let (height, place) = self.planes.locate(p);
+        let row = (height - self.start) / self.step;
+        let arm = place - self.taps([row, 0.0]).0.mixed(|at| self.middles[at]);
+        ([row, arm.y.atan2(arm.x) / std::f64::consts::TAU * RAYS as f64], arm)
+    }
+
+    /// The rows and the directions around a place.
+    #[inline(always)]
+    fn taps(&self, [row, ray]: [f64; 2]) -> (Taps, Taps) {
+        let last = self.reaches.len() as i64 - 1;
+        let row = Taps::new(row, |index| index.clamp(0, last));
+        (row, Taps::new(ray, |index| index.rem_euclid(RAYS as i64)))
+    }
+
+    #[inline(always)]
+    fn lift(&self, v: DVec2) -> DVec3 {
+        v.x * self.planes.across + v.y * self.planes.front
+    }
 }
 
 /// The three samples around a place, by a quadratic B-spline: smooth, and without overshooting.
 struct Taps {
-    indices: [i64; 3],
+    indices: [usize; 3],
     weights: [f64; 3],
     slopes: [f64; 3],
 }
 
 impl Taps {
-    fn new(place: f64) -> Self {
+    /// Around `place`, of samples whose numbers `bound` keeps among those that there are.
+    #[inline(always)]
+    fn new(place: f64, bound: impl Fn(i64) -> i64) -> Self {
         let nearest = round(place);
         let t = place - nearest;
         let nearest = nearest as i64;
+        let indices = [nearest.saturating_sub(1), nearest, nearest.saturating_add(1)];
         Self {
-            indices: [nearest.saturating_sub(1), nearest, nearest.saturating_add(1)],
+            indices: indices.map(|index| bound(index) as usize),
             weights: [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)],
             slopes: [t - 0.5, -2.0 * t, t + 0.5],
         }
+    }
+
+    /// The samples' mean there.
+    #[inline(always)]
+    fn mixed<T: Sum + Mul<f64, Output = T>>(&self, sample: impl Fn(usize) -> T) -> T {
+        (0..3).map(|tap| sample(self.indices[tap]) * self.weights[tap]).sum()
+    }
+
+    /// Its slope, by samples.
+    #[inline(always)]
+    fn sloped<T: Sum + Mul<f64, Output = T>>(&self, sample: impl Fn(usize) -> T) -> T {
+        (0..3).map(|tap| sample(self.indices[tap]) * self.slopes[tap]).sum()
     }
 }
 

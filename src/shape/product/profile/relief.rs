@@ -7,7 +7,7 @@ use super::chains::{Chain, Chains, arm_share};
 use super::curve::{monotone_cubic, smoothed};
 use super::cuts::{Body, BodyFrame};
 use super::map::on_bones;
-use super::radius_map::{RadiusMap, Ring, reaches_around};
+use super::radius_map::{RadiusMap, Ring, Spot, reaches_around};
 use super::station::{centred, surface};
 use super::{ARM_STATIONS, LEG_STATIONS, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::geometry::slice::{Outline, Planes, RAYS};
@@ -80,6 +80,20 @@ impl Reaches {
         Self(std::array::from_fn(|map| maps[map].take()))
     }
 
+    /// Adds the spots of a point, each with the number of the map that moves it: what maps that are yet to come need of what stays.
+    pub fn add_spots(
+        &self,
+        spots: &mut Vec<(u8, Spot)>,
+        frame: &BodyFrame,
+        p: DVec3,
+        weights: &PartWeights,
+        is_skirt: bool,
+    ) {
+        shares(&self.0, frame, p, weights, is_skirt, |number, map, share, _| {
+            spots.push((number, map.spot(p, share)));
+        });
+    }
+
     /// What is to become of it.
     ///
     /// - `strength`: 0 leaves relief, 1 smooths all of it: at the slices of torso, legs and arms.
@@ -105,71 +119,101 @@ impl Reaches {
 }
 
 impl Relief {
+    /// Whether what is done to what part number `part` moves is what the same body's relief `other` does.
+    pub fn is_as(&self, other: &Self, part: usize) -> bool {
+        let limb = part.checked_sub(Part::LeftUpperArm as usize).map(|of_limbs| of_limbs / 3);
+        let of_limb = limb.and_then(|limb| [3, 4, 1, 2].get(limb));
+        let [own, others] = [self, other].map(|relief| &relief.maps);
+        let is_same = |&map: &usize| match (&own[map], &others[map]) {
+            (Some(own), Some(other)) => own.scales == other.scales,
+            (own, other) => own.is_none() && other.is_none(),
+        };
+        [Some(&0), of_limb].into_iter().flatten().all(is_same)
+    }
+
     /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
     pub fn map<M: Moved>(&self, p: DVec3, weights: &PartWeights, is_skirt: bool) -> M {
         let mut to = p;
         let mut jacobian = DMat3::IDENTITY;
-        let mut add = |share: f64, slope: DVec3, shift: M| {
+        shares(&self.maps, &self.frame, p, weights, is_skirt, |_, map, share, slope| {
+            let shift: M = map.shift(p);
             to += share * shift.position();
             jacobian += shift.jacobian() * share + outer(shift.position(), slope);
-        };
-        let arms = [0, 1].map(|side| f64::from(arm_share(weights, side)));
-        let frame = &self.frame;
-        let [torso, limbs @ ..] = &self.maps;
-        if let Some(map) = torso {
-            let of_head = f64::from(
-                weights[Part::Head as usize] + weights[Part::Hair as usize] + weights[Part::Neck as usize],
-            );
-            let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
-                * (1.0 - smoothstep(of_head / 0.5));
-            let (share, slope) = self.torso_share(p.y, is_skirt);
-            if bound * share > 0.0 {
-                add(bound * share, DVec3::Y * (bound * slope), map.shift(p));
-            }
-        }
-        for side in 0..2 {
-            if let Some(map) = &limbs[side]
-                && !is_skirt
-            {
-                let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
-                let bound = f64::from(weights[first] + weights[first + 1]);
-                let t = (frame.heights.crotch - p.y) / frame.leg_length;
-                let (share, slope) = smoothstep_slope(t / 0.22);
-                if bound * share > 0.0 {
-                    let slope = DVec3::NEG_Y * (bound * slope / 0.22 / frame.leg_length);
-                    add(bound * share, slope, map.shift(p));
-                }
-            }
-            let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
-            if let Some(map) = &limbs[2 + side]
-                && bound > 0.0
-            {
-                let length = frame.arm_lengths[side];
-                let t = map.planes.locate(p).0 / length;
-                let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
-                let (end, end_slope) = smoothstep_slope((t - 0.98) / 0.12);
-                let share = bound * start * (1.0 - end);
-                if share > 0.0 {
-                    let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start) / length;
-                    add(share, map.planes.axis * slope, map.shift(p));
-                }
-            }
-        }
+        });
         M::of(to, || jacobian)
     }
 
-    /// How much of the torso's relief is smoothed at height `y`, and the slope of that.
-    fn torso_share(&self, y: f64, is_skirt: bool) -> (f64, f64) {
-        let torso_length = self.frame.torso_length();
-        let t = (y - self.frame.heights.crotch) / torso_length;
-        let to_leg = self.frame.leg_length / torso_length;
-        let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
-        let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
-        let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
-        let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
-            - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
-        ((1.0 - top) * (1.0 - bottom), slope / torso_length)
+    /// As [`Self::map`], of a point whose spots these are, as [`Reaches::add_spots`] gives them.
+    pub fn map_known(&self, p: DVec3, spots: &[(u8, Spot)]) -> DVec3 {
+        let shift = |(map, spot): &(u8, Spot)| Some(self.maps[usize::from(*map)].as_ref()?.shift_of(spot));
+        p + spots.iter().filter_map(shift).sum::<DVec3>()
     }
+}
+
+/// Gives the numbers of the maps that move `p`, which `weights` bind, with each how much of it does, and the slope of that.
+#[inline(always)]
+fn shares(
+    maps: &[Option<RadiusMap>; 5],
+    frame: &BodyFrame,
+    p: DVec3,
+    weights: &PartWeights,
+    is_skirt: bool,
+    mut give: impl FnMut(u8, &RadiusMap, f64, DVec3),
+) {
+    let arms = [0, 1].map(|side| f64::from(arm_share(weights, side)));
+    let [torso, limbs @ ..] = maps;
+    if let Some(map) = torso {
+        let of_head = f64::from(
+            weights[Part::Head as usize] + weights[Part::Hair as usize] + weights[Part::Neck as usize],
+        );
+        let bound = (1.0 - smoothstep((arms[0] + arms[1] - OF_ARM.0) / (OF_ARM.1 - OF_ARM.0)))
+            * (1.0 - smoothstep(of_head / 0.5));
+        let (share, slope) = torso_share(frame, p.y, is_skirt);
+        if bound * share > 0.0 {
+            give(0, map, bound * share, DVec3::Y * (bound * slope));
+        }
+    }
+    for side in 0..2 {
+        if let Some(map) = &limbs[side]
+            && !is_skirt
+        {
+            let first = [Part::LeftUpperLeg, Part::RightUpperLeg][side] as usize;
+            let bound = f64::from(weights[first] + weights[first + 1]);
+            let t = (frame.heights.crotch - p.y) / frame.leg_length;
+            let (share, slope) = smoothstep_slope(t / 0.22);
+            if bound * share > 0.0 {
+                let slope = DVec3::NEG_Y * (bound * slope / 0.22 / frame.leg_length);
+                give(1 + side as u8, map, bound * share, slope);
+            }
+        }
+        let bound = ((arms[side] - 0.1) / 0.8).clamp(0.0, 1.0);
+        if let Some(map) = &limbs[2 + side]
+            && bound > 0.0
+        {
+            let length = frame.arm_lengths[side];
+            let t = map.planes.locate(p).0 / length;
+            let (start, start_slope) = smoothstep_slope((t - 0.05) / 0.2);
+            let (end, end_slope) = smoothstep_slope((t - 0.98) / 0.12);
+            let share = bound * start * (1.0 - end);
+            if share > 0.0 {
+                let slope = bound * (start_slope / 0.2 * (1.0 - end) - end_slope / 0.12 * start) / length;
+                give(3 + side as u8, map, share, map.planes.axis * slope);
+            }
+        }
+    }
+}
+
+/// How much of the torso's relief is smoothed at height `y`, and the slope of that.
+fn torso_share(frame: &BodyFrame, y: f64, is_skirt: bool) -> (f64, f64) {
+    let torso_length = frame.torso_length();
+    let t = (y - frame.heights.crotch) / torso_length;
+    let to_leg = frame.leg_length / torso_length;
+    let fade = if is_skirt { (SKIRT_FADE.0 * to_leg, SKIRT_FADE.1 * to_leg) } else { BOTTOM_FADE };
+    let (top, top_slope) = smoothstep_slope((t - TOP_FADE.0) / (TOP_FADE.1 - TOP_FADE.0));
+    let (bottom, bottom_slope) = smoothstep_slope((-t - fade.0) / (fade.1 - fade.0));
+    let slope = bottom_slope / (fade.1 - fade.0) * (1.0 - top)
+        - top_slope / (TOP_FADE.1 - TOP_FADE.0) * (1.0 - bottom);
+    ((1.0 - top) * (1.0 - bottom), slope / torso_length)
 }
 
 impl Body<'_> {
@@ -226,7 +270,14 @@ impl Body<'_> {
         let middles = smoothed(&middles, &ways, MIDDLE_SIGMA * self.length);
         let middles: Vec<DVec2> = middles.into_iter().map(DVec2::from).collect();
         let reaches = reaches_around(&cuts, &middles)?;
-        Some(RadiusMap { planes, start, step, middles, reaches, scales: Vec::new() })
+        Some(RadiusMap {
+            planes,
+            start,
+            step,
+            middles: middles.into(),
+            reaches: reaches.into(),
+            scales: Vec::new(),
+        })
     }
 }
 
@@ -238,7 +289,9 @@ fn scaled(
     strength: impl Iterator<Item = f64>,
 ) -> RadiusMap {
     let scale = |((reach, smooth), strength): ((&Ring, &Ring), f64)| -> Ring {
-        std::array::from_fn(|ray| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1).powf(strength))
+        let whole = |ray: usize| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1);
+        // A power of 1 takes as long as any other.
+        std::array::from_fn(|ray| if strength == 1.0 { whole(ray) } else { whole(ray).powf(strength) })
     };
     let raw: Vec<Ring> = map.reaches.iter().zip(smooth).zip(strength).map(scale).collect();
     let even = smoothed(&raw, places, SCALE_SIGMA);
