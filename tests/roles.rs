@@ -800,6 +800,36 @@ root @ 0 0.95 0
 }
 
 #[test]
+fn a_finger_is_of_the_arm_that_it_hangs_from_beside_the_hand_and_by_another_sides_name() {
+    let arm = ["Shoulder.L", "UpperArm.L", "LowerArm.L", "Palm.L"];
+    let leg = ["UpperLeg.L", "LowerLeg.L", "Foot.L", ""];
+    let text = person("Hips", &["Torso"], ["Neck", "Head"], arm, leg);
+    let hand = text.lines().find(|line| line.contains("Palm.L")).unwrap();
+    let indent = &hand[..hand.len() - hand.trim_start().len()];
+    let thumb = format!("{hand}\n{indent}Thumb1.L @ 0.7 1.38 0.03\n{indent}  Thumb2.L @ 0.72 1.36 0.05");
+    let mut skeleton = made_up(&text.replace(hand, &thumb), ".L", ".R");
+    let sides: Vec<(usize, bool)> = (0..skeleton.joints.len())
+        .filter(|&joint| skeleton.joints[joint].name.starts_with("Thumb"))
+        .map(|joint| (joint, skeleton.joints[joint].name.ends_with(".L")))
+        .collect();
+    assert_eq!(sides.len(), 4);
+    let (found, _) = find_roles(&skeleton, &[], glam::Vec3::Y);
+    for &(joint, left) in &sides {
+        let name = &mut skeleton.joints[joint].name;
+        *name = if left { name.replace(".L", ".R") } else { name.replace(".R", ".L") };
+    }
+    let (by_other_names, _) = find_roles(&skeleton, &[], glam::Vec3::Y);
+    for found in [found, by_other_names] {
+        for (side, metacarpal, distal) in
+            [(true, LeftThumbMetacarpal, LeftThumbDistal), (false, RightThumbMetacarpal, RightThumbDistal)]
+        {
+            let mut own = sides.iter().filter(|(_, left)| *left == side).map(|(joint, _)| *joint);
+            assert_eq!([found.joint(metacarpal), found.joint(distal)], [own.next(), own.next()]);
+        }
+    }
+}
+
+#[test]
 fn feet_may_hang_from_the_root_and_a_spine_may_be_called_hips() {
     let text = "
 Bone @ 0 0 0

@@ -73,10 +73,15 @@ struct NamedSkeleton<'a> {
 impl NamedSkeleton<'_> {
     /// Joints whose names say `part` and `side`, best first: by word, then by number, then from the root.
     fn all(&self, part: Part, side: Option<Side>) -> Vec<usize> {
+        self.all_where(part, |own| own == side)
+    }
+
+    /// The same of any side that `choose` takes.
+    fn all_where(&self, part: Part, choose: impl Fn(Option<Side>) -> bool) -> Vec<usize> {
         let mut found: Vec<usize> = (0..self.readings.len())
             .filter(|&joint| {
                 let reading = &self.readings[joint];
-                reading.side == side && reading.part.is_some_and(|(named, _)| named == part)
+                choose(reading.side) && reading.part.is_some_and(|(named, _)| named == part)
             })
             .collect();
         let rank = |joint: usize| self.readings[joint].part.map(|(_, rank)| rank);
@@ -178,9 +183,11 @@ impl NamedSkeleton<'_> {
             upper.and_then(|upper| shoulders.iter().copied().find(|&shoulder| self.below(upper, shoulder)));
         humanoid.set_on_side(side == Side::Left, LEFT_ARM, [shoulder, upper, lower, hand]);
         let Some(hand) = hand else { return };
+        // A finger is of the arm that it hangs from, though it hangs beside the hand, and whatever side its own name says.
+        let from = lower.filter(|&lower| self.below(hand, lower)).unwrap_or(hand);
         for (place, finger) in FINGERS.into_iter().enumerate() {
-            let named = all(finger);
-            let mut joints: Vec<usize> = named.into_iter().filter(|&joint| self.below(joint, hand)).collect();
+            let named = self.all_where(finger, |side| side.is_some());
+            let mut joints: Vec<usize> = named.into_iter().filter(|&joint| self.below(joint, from)).collect();
             joints.extend(self.numbered_finger(place, hand));
             joints.sort_by_key(|&joint| self.depths[joint]);
             // Of joints that do not follow each other only the first line counts.
