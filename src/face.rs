@@ -177,8 +177,7 @@ impl FaceShape {
         match self {
             Self::None => M::of(p, || DMat3::IDENTITY),
             Self::Curve(map) => {
-                let slope = || DVec3::new(1.0, map.slope(p.y), 1.0);
-                M::of(p.with_y(map.map(p.y)), || DMat3::from_diagonal(slope()))
+                M::of(p.with_y(map.map(p.y)), || DMat3::from_diagonal(DVec3::ONE.with_y(map.slope(p.y))))
             }
             Self::Sphere(map) => M::of(map.map(p), || map.jacobian(p)),
         }

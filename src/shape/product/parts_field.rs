@@ -121,12 +121,12 @@ impl PartField {
             HAIR => self.affine[HEAD] == other.affine[HEAD],
             _ => self.affine[part] == other.affine[part],
         };
-        let are_sliced = |part: usize| match (&self.slices, &other.slices) {
-            // What head and hair alone move, no slice does.
-            _ if part == HEAD || part == HAIR => true,
-            (Some(own), Some(other)) => own.are_as(other, part),
-            (own, other) => own.is_none() && other.is_none(),
+        let are_sliced = match (&self.slices, &other.slices) {
+            (Some(own), Some(other)) => own.common(other),
+            (own, other) => [own.is_none() && other.is_none(); PART_COUNT],
         };
+        // What head and hair alone move, no slice does.
+        let are_sliced = |part: usize| are_sliced[part] || part == HEAD || part == HAIR;
         std::array::from_fn(|part| if is_same(part) && are_sliced(part) { 0.0 } else { 1.0 })
     }
 
@@ -185,9 +185,10 @@ impl PartField {
 
     /// As [`Self::place`], of a point whose spots are known.
     pub fn place_known(&self, p: DVec3, binding: &PartBinding, spots: &[(u8, Spot)]) -> DVec3 {
-        match binding.is_plain() {
-            true => self.body_by(p, binding, |relief, p| relief.map_known(p, spots)),
-            false => self.place(p, binding),
+        if binding.is_plain() {
+            self.body_by(p, binding, |relief, p| relief.map_known(p, spots))
+        } else {
+            self.place(p, binding)
         }
     }
 

@@ -13,7 +13,7 @@ use crate::geometry::{self, Rows, smoothstep};
 use crate::shape::Measured;
 use crate::shape::figure::Figure;
 use crate::shape::product::binding::PartBinding;
-use crate::shape::product::part::Part;
+use crate::shape::product::part::{PART_COUNT, Part};
 use crate::shape::product::parts_field::{PartField, is_of_head};
 use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::DVec2;
@@ -59,7 +59,7 @@ impl Chart {
         let mut spots = Rows { starts: vec![0], things: Vec::new() };
         for (binding, &p) in bindings.iter().zip(&figure.positions) {
             if binding.is_plain() && !is_of_head(&binding.weights) {
-                self.reaches.add_spots(&mut spots.things, &self.frame, p, &binding.weights, binding.is_skirt);
+                self.reaches.add_spots(&mut spots.things, &self.frame, p, binding);
             }
             spots.starts.push(spots.things.len() as u32);
         }
@@ -370,9 +370,14 @@ impl<'a> Grows<'a> {
 }
 
 impl Slices {
-    /// Whether what is done to what part number `part` moves is what the same body's slices `other` do.
-    pub fn are_as(&self, other: &Self, part: usize) -> bool {
-        self.relief.is_as(&other.relief, part) && self.map.is_as(&other.map, part)
+    /// By part, whether what is done to what it moves is what the same body's slices `other` do.
+    pub fn common(&self, other: &Self) -> [bool; PART_COUNT] {
+        let [torso, left_leg, right_leg, left_arm, right_arm] = self.relief.common(&other.relief);
+        let (limbs, of_map) = ([left_arm, right_arm, left_leg, right_leg], self.map.common(&other.map));
+        std::array::from_fn(|part| {
+            let limb = part.checked_sub(Part::LeftUpperArm as usize).and_then(|part| limbs.get(part / 3));
+            torso && limb.is_none_or(|same| *same) && of_map[part]
+        })
     }
 
     /// A warning that names what soft limits took more than a tenth of.

@@ -12,7 +12,7 @@ use super::slice_scales::{Scales, mitt};
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
-use crate::shape::product::part::{NECK, Part, PartWeights, TORSO};
+use crate::shape::product::part::{NECK, PART_COUNT, Part, PartWeights, TORSO};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
@@ -159,10 +159,11 @@ impl BodyMap {
         map
     }
 
-    /// Whether what [`Self::part`] does for part number `part` is what the same body's map `other` does.
-    pub fn is_as(&self, other: &Self, part: usize) -> bool {
+    /// By part, whether [`Self::part`] does what the same body's map `other` does.
+    pub fn common(&self, other: &Self) -> [bool; PART_COUNT] {
         // Limbs begin with the torso's map, and skirts keep to it.
-        let own = match chain_of(part, false) {
+        let torso = self.torso == other.torso;
+        let own = |part: usize| match chain_of(part, false) {
             NECK => self.neck == other.neck,
             LEFT_ARM => self.arms[0] == other.arms[0],
             RIGHT_ARM => self.arms[1] == other.arms[1],
@@ -170,7 +171,7 @@ impl BodyMap {
             LEFT_FOOT | RIGHT_FOOT => self.feet == other.feet,
             _ => true,
         };
-        own && self.torso == other.torso
+        std::array::from_fn(|part| torso && own(part))
     }
 
     /// Where `p` goes before the map of part number `part`.

@@ -15,6 +15,7 @@ use crate::geometry::weld::Weld;
 use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
 use crate::parallel;
 use crate::shape::figure::Figure;
+use crate::shape::product::binding::PartBinding;
 use crate::shape::product::part::{Part, PartWeights};
 use glam::{DMat3, DVec2, DVec3};
 
@@ -80,16 +81,10 @@ impl Reaches {
         Self(std::array::from_fn(|map| maps[map].take()))
     }
 
-    /// Adds the spots of a point, each with the number of the map that moves it: what maps that are yet to come need of what stays.
-    pub fn add_spots(
-        &self,
-        spots: &mut Vec<(u8, Spot)>,
-        frame: &BodyFrame,
-        p: DVec3,
-        weights: &PartWeights,
-        is_skirt: bool,
-    ) {
-        shares(&self.0, frame, p, weights, is_skirt, |number, map, share, _| {
+    /// Adds the spots of a point that is bound so, each with the number of its map: what maps that are yet to come need of what
+    /// stays.
+    pub fn add_spots(&self, spots: &mut Vec<(u8, Spot)>, frame: &BodyFrame, p: DVec3, by: &PartBinding) {
+        shares(&self.0, frame, p, &by.weights, by.is_skirt, |number, map, share, _| {
             spots.push((number, map.spot(p, share)));
         });
     }
@@ -119,16 +114,12 @@ impl Reaches {
 }
 
 impl Relief {
-    /// Whether what is done to what part number `part` moves is what the same body's relief `other` does.
-    pub fn is_as(&self, other: &Self, part: usize) -> bool {
-        let limb = part.checked_sub(Part::LeftUpperArm as usize).map(|of_limbs| of_limbs / 3);
-        let of_limb = limb.and_then(|limb| [3, 4, 1, 2].get(limb));
-        let [own, others] = [self, other].map(|relief| &relief.maps);
-        let is_same = |&map: &usize| match (&own[map], &others[map]) {
+    /// Which maps, of torso, legs and arms, do what those of the same body's relief `other` do.
+    pub fn common(&self, other: &Self) -> [bool; 5] {
+        std::array::from_fn(|map| match (&self.maps[map], &other.maps[map]) {
             (Some(own), Some(other)) => own.scales == other.scales,
             (own, other) => own.is_none() && other.is_none(),
-        };
-        [Some(&0), of_limb].into_iter().flatten().all(is_same)
+        })
     }
 
     /// Where `p` goes that `weights` bind; a Jacobian is that at fixed weights.
