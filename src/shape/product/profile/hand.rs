@@ -239,7 +239,7 @@ fn middle_line(places: &[DVec3], planes: &Planes, length: f64) -> [DVec2; 2] {
     let mut normal = DMat3::ZERO;
     let mut right = [DVec3::ZERO; 2];
     for at in 0..=LINE_STEPS {
-        let is_near = |point: &&DVec3| (point.x * LINE_STEPS as f64 - at as f64).abs() <= 1.0;
+        let is_near = |point: &&DVec3| (point.x * LINE_STEPS as f64 - at as f64).abs() <= 1.0 + BEYOND;
         let mut near = points.iter().filter(is_near);
         let Some(&first) = near.next() else { continue };
         let [low, high] = near.fold([first; 2], |[low, high], &p| [low.min(p), high.max(p)]);
