@@ -19,7 +19,6 @@ pub mod station;
 pub mod wanted;
 
 mod cuts;
-mod hand;
 mod numbers;
 
 pub use chart::{Chart, Slices};
