@@ -52,14 +52,14 @@ static void text_ends_within_its_capacity(void) {
 
 static void a_jacobian_is_the_slope_of_the_map(void) {
   begin();
-  // A point of the head, and points a little further along each axis; a map that turns or shears tells rows and columns.
+  // Points along an arm, and points a little further along each axis; a map that turns or shears tells rows and columns.
   const double step = 1e-5;
   const uint32_t owners[4] = {5, 5, 5, 5};
   double points[4][3], mapped[4][3], jacobians[4][9];
   int skewed = 0;
   for (int place = 0; place < 20; place++) {
     for (int point = 0; point < 4; point++) {
-      points[point][0] = 0.55 + 0.01 * place;
+      points[point][0] = 0.17 + 0.03 * place;
       points[point][1] = 1.36 + 0.003 * place;
       points[point][2] = 0.02;
       if (point > 0) points[point][point - 1] += step;

@@ -1,7 +1,9 @@
 //! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
+use super::curve::monotone_cubic;
 use super::cuts::{BodyFrame, BodyLines, on_limb};
+use super::hand::HAND_SIZES;
 use super::radius_map::Spot;
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
@@ -89,16 +91,19 @@ impl Chart {
         };
         let relief = self.reaches.relief(frame, strength, place);
         let (mut smooth, lines) = self.smoothed(&relief);
-        if let (Some(hand), Some(wanted), Some(closed)) = (&mut smooth.hand, wanted.hand, lines.closed_hand) {
-            // What becomes a mitt is as large as its fingers leave it.
-            let share = mitt(std::array::from_fn(|axis| wanted[axis] / hand[axis]));
-            *hand = std::array::from_fn(|axis| hand[axis] * (closed[axis] / hand[axis]).powf(share));
+        let mut share = 0.0;
+        if let (Some(hand), Some(wanted), Some(sizes)) = (&mut smooth.hand, wanted.hand, lines.hand_sizes) {
+            // What becomes a mitt is as large as that leaves it.
+            share = mitt(std::array::from_fn(|axis| (wanted[axis] / hand[axis]).powf(strengths.hand)));
+            let shares = std::array::from_fn::<f64, HAND_SIZES, _>(|at| at as f64 / (HAND_SIZES - 1) as f64);
+            *hand = std::array::from_fn(|axis| monotone_cubic(&shares, &sizes.map(|size| size[axis]), share));
         }
         // The torso's own curve goes with its relief: parts that flattened it would put it back.
         let about = parts.about(frame.centre_line(smooth.torso.as_ref()));
         let grows = Grows { parts: &about, ..grows };
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
+        scales.mitt = share;
         grows.back(&mut scales, &smooth, &straight);
         // Where none is asked for, what spreads there from beside does not count.
         let mut relieved = self.thicker(&smooth);

@@ -1,7 +1,8 @@
 //! Measures a profile: some seventy cuts, each read around the bones.
 
 use super::chains::{Chain, Chains};
-use super::map::{DigitMap, on_bones};
+use super::hand::{DigitMap, HandBox, HandSizes};
+use super::map::on_bones;
 use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, hits, slice_around};
 use super::{
@@ -18,7 +19,6 @@ use crate::shape::heights::Heights;
 use crate::shape::product::anatomy::{Anatomy, Limb, Proportions};
 use crate::shape::product::part::digits;
 use glam::{DVec2, DVec3};
-use std::borrow::Cow;
 
 /// What reaches further than this over the middle is no leg, in head lengths.
 const OVER_MIDDLE: f64 = 0.012;
@@ -26,12 +26,7 @@ const OVER_MIDDLE: f64 = 0.012;
 pub(super) const SKIRT_OVER_MIDDLE: f64 = 0.05;
 /// Beyond a wrist and under an ankle is what lies this much further, in head lengths: a ring of vertices at the joint itself is
 /// not, whatever its last digits are.
-const BEYOND: f64 = 1e-3;
-/// A hand ends at this quantile of its vertices' reach, and is as broad as those between the other two within this part of its
-/// length.
-const HAND_END: f64 = 0.99;
-const HAND_SIDES: (f64, f64) = (0.02, 0.98);
-const HAND_PALM: (f64, f64) = (0.15, 0.75);
+pub(super) const BEYOND: f64 = 1e-3;
 /// A neck is read at these heights between shoulder line and chin.
 const NECK_HEIGHTS: [f64; 3] = [0.45, 0.6, 0.75];
 /// A neck is no thicker than this, in head lengths, an adult's .27: what lies further out is a collar or a scarf.
@@ -61,26 +56,8 @@ pub struct BodyFrame {
     pub shoulders: DVec3,
     /// The plane that halves the body.
     pub middle_x: f64,
-    /// The joints of each finger, thumb first.
-    pub digits: [[Option<[DVec3; 3]>; 5]; 2],
-}
-
-/// The plane of a palm, in which a mitt's fingers lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Palm {
-    /// The middle of the fingers' roots.
-    pub middle: DVec3,
-    /// From the wrist to there; a unit vector.
-    pub along: DVec3,
-    /// The plane's; a unit vector.
-    pub normal: DVec3,
-}
-
-impl Palm {
-    /// The way from `p` to the plane.
-    pub fn way_to(&self, p: DVec3) -> DVec3 {
-        (self.middle - p).project_onto_normalized(self.normal)
-    }
+    /// The first and the last joint of each finger, thumb first.
+    pub digits: [[Option<[DVec3; 2]>; 5]; 2],
 }
 
 impl BodyFrame {
@@ -95,7 +72,7 @@ impl BodyFrame {
         let digit = |roles: [Role; 3]| {
             let [root, middle, end] = roles.map(|role| figure.role_position(role));
             let (root, end) = (root.or(middle)?, end.or(middle)?);
-            (root.distance(end) > 0.0).then_some([root, middle.unwrap_or(root), end])
+            (root.distance(end) > 0.0).then_some([root, end])
         };
         let digits_of = |side: usize| digits(side == 0).map(digit);
         let heights = anatomy.landmarks.heights;
@@ -157,14 +134,19 @@ impl BodyFrame {
         Some(Planes { origin: limb.root, axis, across: up, front })
     }
 
-    /// The palm of the hand on one side; `None` where fewer than two fingers beside the thumb have joints.
-    pub fn palm(&self, side: usize) -> Option<Palm> {
+    /// Along the palm of one hand, from the wrist to the middle of the fingers' roots, and away from it, unit vectors; `None` where
+    /// fewer than two fingers beside the thumb have joints.
+    fn palm(&self, side: usize) -> Option<[DVec3; 2]> {
         let roots: Vec<DVec3> = self.digits[side][1..].iter().flatten().map(|[root, ..]| *root).collect();
-        let (first, last) = (roots.first()?, roots.last()?);
-        let middle = roots.iter().sum::<DVec3>() / roots.len() as f64;
-        let along = (middle - self.limbs[side].end).try_normalize()?;
-        let normal = (last - first).cross(along).try_normalize()?;
-        Some(Palm { middle, along, normal })
+        let along = roots.iter().sum::<DVec3>() / roots.len().max(1) as f64 - self.limbs[side].end;
+        let along = along.try_normalize()?;
+        Some([along, (roots.last()? - roots.first()?).cross(along).try_normalize()?])
+    }
+
+    /// What is done to the fingers of a hand that becomes `share` of a mitt, thumb first.
+    pub(super) fn closed_digits(&self, side: usize, share: f64) -> [Option<DigitMap>; 5] {
+        let palm = self.palm(side).filter(|_| share > 0.0);
+        std::array::from_fn(|digit| Some(DigitMap::closed(digit, self.digits[side][digit]?, palm?, share)))
     }
 
     /// From the torso's bottom to its top, model units.
@@ -215,14 +197,11 @@ impl BodyFrame {
 pub struct BodyLines {
     /// Left, right; smoothed, model units.
     pub arm_middles: [Option<[Row; 2]>; 2],
-    /// The same of hands, at the same parts of their own lengths, in the arms' planes.
-    pub hand_middles: [Option<[Row; 2]>; 2],
-    /// Length, half breadth and half thickness of hands whose fingers are closed as a mitt's, in head lengths.
-    pub closed_hand: Option<[f64; 3]>,
+    /// What hands fill whose fingers are closed as a mitt's, model units.
+    pub hands: [Option<HandBox>; 2],
+    /// See there.
+    pub hand_sizes: Option<HandSizes>,
 }
-
-/// Length, half breadth, half thickness of hands as they are, and with their fingers closed, in head lengths.
-type Hands = [Option<[f64; 3]>; 2];
 
 /// Measures the profile of a figure whose vertices are at `positions`.
 ///
@@ -248,7 +227,7 @@ pub fn measure_profile(
         let places = weld.first_vertices();
         (body.arms(), body.hands(&places), body.foot(&places))
     };
-    let ((torso, (leg, skirt), neck), ((arm, arm_middles), ([hand, closed_hand], hand_middles), foot)) =
+    let ((torso, (leg, skirt), neck), ((arm, arm_middles), (hands, hand_sizes), foot)) =
         parallel::both(body.worth(threads), trunk, limbs);
     let length = body.length;
     let profile = Profile {
@@ -256,14 +235,14 @@ pub fn measure_profile(
         leg,
         arm,
         skirt,
-        hand,
+        hand: hand_sizes.map(|[open, ..]| open),
         foot,
         neck,
         shoulder: (0..2).map(|side| (frame.limbs[side].root.x - frame.middle_x).abs()).sum::<f64>()
             / (2.0 * length),
         arm_length: (frame.arm_lengths[0] + frame.arm_lengths[1]) / (2.0 * length),
     };
-    (profile.sound(), BodyLines { arm_middles, hand_middles, closed_hand })
+    (profile.sound(), BodyLines { arm_middles, hands, hand_sizes })
 }
 
 /// A body to be measured, as it is now.
@@ -379,89 +358,14 @@ impl Body<'_> {
             let cuts = self.cut(&self.triangles(Chain::Arm(side)), &planes, &heights);
             let bone = |height: f64| on_bones(elbow, length, height)[0];
             let rows = self.rows(&cuts, &heights, |_| true, bone, false);
-            *middle = self.lines([&rows[0], &rows[1]]);
+            let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
+            *middle = line(&rows[0]).zip(line(&rows[1])).map(Into::into);
             sides.push(rows);
         }
         let [_, _, breadth, depth] = mean_rows(&sides);
         let arm =
             (|| Some(ArmProfile { breadth: smooth_lengths(&breadth)?, depth: smooth_lengths(&depth)? }))();
         (arm, middles)
-    }
-
-    /// Length, half breadth, half thickness; the same of hands whose fingers are closed, and the middles of these.
-    fn hands(&self, places: &[u32]) -> (Hands, [Option<[Row; 2]>; 2]) {
-        let mut middles = [None, None];
-        let mut closed_sides = Vec::new();
-        let mut sides = Vec::new();
-        for (side, middles) in middles.iter_mut().enumerate() {
-            let Some(planes) = self.frame.arm_planes(side) else { continue };
-            let planes = Planes { origin: self.frame.limbs[side].end, ..planes };
-            let Some(open) = self.hand(side, places, &planes) else { continue };
-            let positions = self.with_closed_fingers(side);
-            let closed = Body { positions: &positions, ..*self };
-            *middles = closed.hand_middles(side, &planes, open[0]);
-            closed_sides.extend(closed.hand(side, places, &planes));
-            sides.push(open);
-        }
-        let mean = |sides: &[[f64; 3]]| mean_numbers(sides, self.length);
-        ([mean(&sides), mean(&closed_sides)], middles)
-    }
-
-    /// Length, half breadth, half thickness of a hand.
-    fn hand(&self, side: usize, places: &[u32], planes: &Planes) -> Option<[f64; 3]> {
-        let points: Vec<(f64, DVec2)> = places
-            .iter()
-            .map(|&vertex| vertex as usize)
-            .filter(|&vertex| self.chains.hold(vertex, Chain::Hand(side)))
-            .map(|vertex| planes.locate(self.positions[vertex]))
-            .filter(|point| point.0 > BEYOND * self.length)
-            .collect();
-        let length = quantile(points.iter().map(|point| point.0), HAND_END)?;
-        let palm = || {
-            points
-                .iter()
-                .filter(|point| (HAND_PALM.0..=HAND_PALM.1).contains(&(point.0 / length)))
-                .map(|point| point.1)
-        };
-        let half = |axis: fn(DVec2) -> f64| {
-            let low = quantile(palm().map(axis), HAND_SIDES.0)?;
-            Some((quantile(palm().map(axis), HAND_SIDES.1)? - low) / 2.0)
-        };
-        Some([length, half(|p| p.y)?, half(|p| p.x)?])
-    }
-
-    /// Where the vertices are with a hand's fingers as a mitt's.
-    fn with_closed_fingers(&self, side: usize) -> Cow<'_, [DVec3]> {
-        let Some(palm) = self.frame.palm(side) else { return Cow::Borrowed(self.positions) };
-        let (joints, roles) = (self.frame.digits[side], digits(side == 0));
-        let closing =
-            [0, 1, 2, 3, 4].map(|digit| Some(DigitMap::new(joints[digit]?).closed(digit, &palm, 1.0)));
-        let closed = |(vertex, &p): (usize, &DVec3)| {
-            if !self.chains.hold(vertex, Chain::Hand(side)) {
-                return p;
-            }
-            let moved = closing.iter().zip(&roles).filter_map(|(closing, roles)| {
-                let share = self.figure.weight_of(vertex, |role| roles.contains(&role));
-                Some(share * closing.as_ref()?.way(p))
-            });
-            p + moved.sum::<DVec3>()
-        };
-        Cow::Owned(self.positions.iter().enumerate().map(closed).collect())
-    }
-
-    /// The middles of what cuts through a hand show: vertices would not do, a box has them at its ends alone.
-    fn hand_middles(&self, side: usize, planes: &Planes, length: f64) -> Option<[Row; 2]> {
-        let cuts =
-            self.cut(&self.triangles(Chain::Hand(side)), planes, &stations(ARM_STATIONS).map(|t| t * length));
-        let middles: Vec<DVec2> = cuts.iter().map(|cut| middle(cut).unwrap_or(DVec2::NAN)).collect();
-        let row = |axis: usize| std::array::from_fn(|at| middles[at][axis] / self.length);
-        self.lines([&row(0), &row(1)])
-    }
-
-    /// Smooth lines through middles across and forward that are in head lengths, in model units.
-    fn lines(&self, [across, forward]: [&Row; 2]) -> Option<[Row; 2]> {
-        let line = |row: &Row| smooth(row).map(|line| line.map(|x| x * self.length));
-        Some([line(across)?, line(forward)?])
     }
 
     /// To the toes, to the heel, half breadth, how far outward, height of the toes.
@@ -532,25 +436,15 @@ fn smooth_rows([across, forward, breadth, depth]: &[Row; 4]) -> Option<[Row; 4]>
     Some([smooth(across)?, smooth(forward)?, smooth_lengths(breadth)?, smooth_lengths(depth)?])
 }
 
-fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64; N]> {
+pub(super) fn mean_numbers<const N: usize>(sides: &[[f64; N]], length: f64) -> Option<[f64; N]> {
     let count = sides.len() as f64;
     (!sides.is_empty()).then(|| {
         std::array::from_fn(|which| sides.iter().map(|side| side[which]).sum::<f64>() / count / length)
     })
 }
 
-/// The middle of what a cut shows: of its outlines, by their lengths; `None` where it shows nothing.
-fn middle(outlines: &[Outline]) -> Option<DVec2> {
-    let segments = outlines.iter().flat_map(|outline| &outline.segments);
-    let (length, sum) = segments.fold((0.0, DVec2::ZERO), |(length, sum), &[a, b]| {
-        let own = a.distance(b);
-        (length + own, sum + own * (a + b) / 2.0)
-    });
-    (length > 0.0).then(|| sum / length)
-}
-
 /// The value below which `share` of `values` lie; `None` for none.
-fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
+pub(super) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     let at = share * values.len().checked_sub(1)? as f64;

@@ -5,15 +5,16 @@
 
 use super::chains::arm_share;
 use super::curve::{Table, monotone_cubic};
-use super::cuts::{BodyFrame, BodyLines, Palm};
+use super::cuts::{BodyFrame, BodyLines};
+use super::hand::{DigitMap, FADE, HandMap};
 use super::relief::MOST_ROWS;
 use super::slab::slab;
-use super::slice_scales::{Scales, mitt};
+use super::slice_scales::Scales;
 use super::{ARM_STATIONS, LEG_STATIONS, Profile, Row, TORSO_STATIONS, station_at, stations};
 use crate::geometry::slice::Planes;
 use crate::geometry::{Moved, outer, smoothstep, smoothstep_slope};
 use crate::shape::product::part::{NECK, PART_COUNT, Part, PartWeights, TORSO};
-use glam::{DMat3, DQuat, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Rows of the tables: so many for a head length, and for an arm.
 const ROWS_PER_HEAD: f64 = 100.0;
@@ -25,19 +26,6 @@ const JOINING: f64 = 0.08;
 /// joint (0) and wrist (1).
 const LEG_FADE: (f64, f64) = (-0.10, 0.10);
 const ARM_FADE: (f64, f64) = (0.05, 0.20);
-/// Where a hand takes over from the arm, in parts of its length.
-const HAND_FADE: f64 = 0.25;
-/// The palm's share of a hand's length, and the half width of its border with the fingers.
-const PALM: f64 = 0.45;
-const KNUCKLES: f64 = 0.08;
-/// Fingers become this much shorter than palms, as a power of the hand's own scale.
-const FINGERS_SHORTER: f64 = 1.3;
-/// A mitt's fingers become this much thicker, less 1; not the thumb, which is a spike on a low-poly hand then. Seen: no triangle
-/// of 154 results turns for it.
-const THICKER: f64 = 0.3;
-/// A mitt's thumb comes so much of the way from its root to the plane of the fingers. Seen: of 154 results 652 triangles turn at 0,
-/// where it hangs below the palm, 640 at .2 and at .3, 780 at .4: the skin between both is no longer than that.
-const TO_PALM: f64 = 0.3;
 /// A neck's surface, in its radii: collars lie on it.
 const NECK_REACH: f64 = 1.2;
 /// Half extents where a body has none that were measured, in head lengths; nothing is scaled there.
@@ -47,6 +35,8 @@ const TOE_BOX: (f64, f64) = (0.05, 0.6);
 
 const LEFT_ARM: usize = Part::LeftUpperArm as usize;
 const RIGHT_ARM: usize = Part::RightUpperArm as usize;
+const LEFT_HAND: usize = Part::LeftHand as usize;
+const RIGHT_HAND: usize = Part::RightHand as usize;
 const LEFT_LEG: usize = Part::LeftUpperLeg as usize;
 const RIGHT_LEG: usize = Part::RightUpperLeg as usize;
 const LEFT_FOOT: usize = Part::LeftFoot as usize;
@@ -76,33 +66,15 @@ struct ArmMap {
     /// Where the shoulder joint goes, less where it was.
     base: DVec3,
     length: f64,
-    /// By the place along the arm, model units: how much further it goes, scales, halves, middles, and these on the result.
-    table: Table<9>,
+    /// By the place along the arm, model units: how much further it goes, scales, halves, middles.
+    table: Table<7>,
     /// Where along and beside it the elbow is, and how much longer the bones become.
     elbow: (f64, DVec2),
     bone_scale: f64,
-    /// In the hand the bones go over to the middles within this length.
-    hand_fade: f64,
     /// What is done to each finger before all else, thumb first.
     digits: [Option<DigitMap>; 5],
-}
-
-/// What makes a finger a part of a mitt: it lies beside the others, short and thick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DigitMap {
-    /// Where it leaves the hand, the unit vector from there to its last joint, and how far that is.
-    root: DVec3,
-    axis: DVec3,
-    length: f64,
-    /// How far along that the joint between is, and how far beside it.
-    bend: (f64, DVec3),
-    /// Where the axis leads, a unit vector, and how much longer what is beyond the joint between becomes.
-    to: DVec3,
-    longer: f64,
-    /// What becomes of a way beside the bones, less that way: turned with the axis, and thicker.
-    beside: DMat3,
-    /// How far all of it goes.
-    shift: DVec3,
+    /// What is done to the hand in place of what is done to the arm.
+    hand: Option<HandMap>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,6 +93,7 @@ struct FootMap {
 pub fn chain_of(part: usize, is_skirt: bool) -> usize {
     match part {
         LEFT_LEG..=RIGHT_FOOT if is_skirt => TORSO,
+        LEFT_HAND | RIGHT_HAND => part,
         LEFT_ARM..RIGHT_ARM => LEFT_ARM,
         RIGHT_ARM..LEFT_LEG => RIGHT_ARM,
         LEFT_LEG..LEFT_FOOT => LEFT_LEG,
@@ -165,8 +138,8 @@ impl BodyMap {
         let torso = self.torso == other.torso;
         let own = |part: usize| match chain_of(part, false) {
             NECK => self.neck == other.neck,
-            LEFT_ARM => self.arms[0] == other.arms[0],
-            RIGHT_ARM => self.arms[1] == other.arms[1],
+            LEFT_ARM | LEFT_HAND => self.arms[0] == other.arms[0],
+            RIGHT_ARM | RIGHT_HAND => self.arms[1] == other.arms[1],
             LEFT_LEG | RIGHT_LEG => self.leg == other.leg && self.spread == other.spread,
             LEFT_FOOT | RIGHT_FOOT => self.feet == other.feet,
             _ => true,
@@ -183,6 +156,7 @@ impl BodyMap {
             TORSO => self.torso(p),
             NECK => level(p, [self.frame.middle_x; 2], self.neck, || (0.0, [0.0; 6])),
             LEFT_ARM | RIGHT_ARM => self.arm_or_torso(usize::from(part >= RIGHT_ARM), p),
+            LEFT_HAND | RIGHT_HAND => self.hand_or_arm(usize::from(part >= RIGHT_HAND), p),
             LEFT_LEG | RIGHT_LEG => self.leg_or_torso(usize::from(part >= RIGHT_LEG), p),
             LEFT_FOOT => self.feet[0].map(p),
             RIGHT_FOOT => self.feet[1].map(p),
@@ -197,8 +171,8 @@ impl BodyMap {
         let digits = self.arms[side].iter().flat_map(|arm| &arm.digits).zip(shares);
         let counts = digits.filter(|&(_, share)| share > 0.0);
         let of = || counts.clone().filter_map(|(digit, share)| Some((digit.as_ref()?, f64::from(share))));
-        let moved = of().map(|(digit, share)| share * digit.way(p)).sum::<DVec3>();
-        M::of(p + moved, || of().fold(DMat3::IDENTITY, |sum, (digit, share)| sum + digit.slope(p) * share))
+        let moved = of().map(|(digit, share)| share * digit.way(p).0).sum::<DVec3>();
+        M::of(p + moved, || of().fold(DMat3::IDENTITY, |sum, (digit, share)| sum + digit.way(p).1 * share))
     }
 
     /// As [`Self::part`], for what hangs on the bones of the arm on side `side`: what lies on a bone goes along it, so that
@@ -244,6 +218,17 @@ impl BodyMap {
         mix(share, slope, || self.torso(p), || arm.map(p, false))
     }
 
+    /// Before the wrist what a hand moves goes over to the arm's map, as soft weights reach far.
+    fn hand_or_arm<M: Moved>(&self, side: usize, p: DVec3) -> M {
+        let on_arm = || self.arm_or_torso(side, p);
+        let Some((arm, hand)) = self.arms[side].as_ref().and_then(|arm| Some((arm, arm.hand?))) else {
+            return on_arm();
+        };
+        let fade = FADE * hand.length();
+        let (share, slope) = smoothstep_slope((arm.planes.locate(p).0 - arm.length) / fade + 1.0);
+        mix(share, arm.planes.axis * (slope / fade), on_arm, || hand.map(p))
+    }
+
     fn foot(&self, side: usize, [toe, .., height]: [f64; 5], scales: &Scales) -> FootMap {
         let (ankle, length) = (self.frame.limbs[2 + side].end, self.frame.head_length());
         let to = self.leg_or_torso(side, ankle);
@@ -255,161 +240,39 @@ impl BodyMap {
         let frame = &self.frame;
         let planes = frame.arm_planes(side)?;
         let (profile, middles) = (own.arm.as_ref()?, lines.arm_middles[side].as_ref()?);
-        let head = frame.head_length();
-        let length = frame.arm_lengths[side];
+        let (head, length) = (frame.head_length(), frame.arm_lengths[side]);
         let places = stations(ARM_STATIONS);
-        let hand = own.hand.map(|hand| hand.map(|size| size * head));
-        let hand_length = hand.map_or(0.5 * length, |hand| hand[0]);
-        let [palm, fingers] = palm_and_fingers(scales.hand[0]);
-        let along = |s: f64| {
-            let t = (s - length) / hand_length;
-            let to_palm = smoothstep(t / HAND_FADE);
-            let to_fingers = smoothstep((t - PALM + KNUCKLES) / (2.0 * KNUCKLES));
-            let hand = palm * (fingers / palm).powf(to_fingers);
-            if s < 0.0 { 1.0 } else { scales.arm_length * (hand / scales.arm_length).powf(to_palm) }
-        };
-        let (start, end) = (-0.2 * length, length + 1.5 * hand_length);
-        let step = (end - start) / (ROWS_OF_ARM - 1) as f64;
-        // What each step becomes longer or shorter, summed up.
-        let mut longer = vec![0.0];
-        for row in 1..ROWS_OF_ARM {
-            let s = start + step * (row as f64 - 0.5);
-            longer.push(longer[row - 1] + step * (along(s) - 1.0));
-        }
-        let row_at = |s: f64| ((s - start) / step).round() as usize;
-        let table = Table::sample(start, end, ROWS_OF_ARM, |s| {
+        let [long, broad, thin] = scales.hand;
+        let table = Table::sample(-0.2 * length, 2.0 * length, ROWS_OF_ARM, |s| {
             let at = |row: &Row| monotone_cubic(&places, row, s / length);
-            // What is the hand's own: 0 at the wrist, 1 where it has taken over.
-            let share = monotone_cubic(&[0.0, HAND_FADE], &[0.0, 1.0], (s - length) / hand_length);
-            let over = |arm: f64, hand: f64| arm * (hand / arm).powf(share);
-            let (breadth, depth) = (head * at(&profile.breadth), head * at(&profile.depth));
-            let [_, broad, thin] = hand.unwrap_or([0.0, depth, breadth]);
-            let longer_here = longer[row_at(s)];
-            // How a hand leaves the arm's line shrinks with its length: one that is short and thick would be a hook.
-            let of_hand = lines.hand_middles[side].as_ref().filter(|_| share > 0.0);
-            let leaving = of_hand.map_or(DVec2::ZERO, |[across, front]| {
-                let of = |row: &Row| monotone_cubic(&places, row, (s - length) / hand_length) - row[0];
-                share * DVec2::new(of(across), of(front))
-            });
-            let from_wrist = 1.0 + (longer_here - longer[row_at(length)]) / (s - length).max(step);
-            let middle = DVec2::new(at(&middles[0]), at(&middles[1]));
-            let (from, to) = (middle + leaving, middle + from_wrist.powi(2) * leaving);
             [
-                longer_here,
-                over(at(&scales.arm.breadth), scales.hand[2]),
-                over(at(&scales.arm.depth), scales.hand[1]),
-                over(breadth, thin),
-                over(depth, broad),
-                from.x,
-                from.y,
-                to.x,
-                to.y,
+                (scales.arm_length - 1.0) * s.clamp(0.0, length) + (long - 1.0) * (s - length).max(0.0),
+                at(&scales.arm.breadth),
+                at(&scales.arm.depth),
+                head * at(&profile.breadth),
+                head * at(&profile.depth),
+                at(&middles[0]),
+                at(&middles[1]),
             ]
         });
         let base = self.torso::<DVec3>(planes.origin) - planes.origin;
         let elbow = planes.locate(frame.limbs[side].middle);
-        let (bone_scale, hand_fade) = (scales.arm_length, HAND_FADE * hand_length);
-        let [long, broad, thin] = scales.hand;
-        let mitt = mitt(scales.hand);
-        let of_side = frame.digits[side];
-        let hand = frame.palm(side);
-        let digits = [0, 1, 2, 3, 4].map(|digit| {
-            // Fingers of a hand that is no mitt are left to the slices.
-            let joints = of_side[digit].filter(|_| digit == 0 || mitt > 0.0)?;
-            let still = DigitMap::new(joints);
-            let closing = hand.map_or(still, |hand| still.closed(digit, &hand, mitt));
-            if digit > 0 {
-                return Some(closing);
-            }
-            // A thumb becomes as short as the hand.
-            let along = [planes.axis, planes.across, planes.front].map(|of_arm| closing.to.dot(of_arm));
-            let grown = DVec3::new(palm, thin, broad) * DVec3::from(along);
-            Some(DigitMap { longer: (long / grown.length()).min(1.0), ..closing })
+        let bone_scale = scales.arm_length;
+        let digits = frame.closed_digits(side, scales.mitt);
+        let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand: None };
+        arm.hand = lines.hands[side].map(|hand| {
+            let to = arm.map(hand.planes.origin, false);
+            HandMap::new(hand, DVec3::new(long, thin, broad), scales.mitt, to)
         });
-        Some(ArmMap { planes, base, length, table, elbow, bone_scale, hand_fade, digits })
+        Some(arm)
     }
-}
-
-/// How far beside the way from joint (0) to joint (`length`) the bones are at `s`, of how far the joint at `bend` between them
-/// is, and the slope there.
-fn beside(bend: f64, length: f64, s: f64) -> [f64; 2] {
-    let (away, slope) =
-        if s < bend { (s, 1.0 / bend) } else { (length - s, -1.0 / (length - bend).max(1e-30)) };
-    if away > 0.0 { [away * slope.abs(), slope] } else { [0.0; 2] }
 }
 
 /// Where an arm's bones are at `s` from shoulder joint (0) to wrist, by where its elbow is, and the slope there.
-pub(super) fn on_bones(elbow: (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
-    beside(elbow.0, length, s).map(|share| share * elbow.1)
-}
-
-/// How far off a line lies what leaves it by 1, so far along it, without a kink; and the slope there.
-fn leaving(along: f64, length: f64) -> [f64; 2] {
-    // Nothing is long where a finger's last joint is its middle one.
-    let (s, fade) = (along.max(0.0), (HAND_FADE * length).max(1e-30));
-    [s * s / (s + fade), s * (s + 2.0 * fade) / ((s + fade) * (s + fade))]
-}
-
-impl DigitMap {
-    /// That of a finger of these joints, which stays as it is.
-    pub(super) fn new([root, middle, end]: [DVec3; 3]) -> Self {
-        let (axis, length) = (end - root).normalize_and_length();
-        let along = (middle - root).dot(axis);
-        // What lies beyond the last joint is not between: the bones would end beside it.
-        let off = if along < length { middle - root - along * axis } else { DVec3::ZERO };
-        let bend = (along, off);
-        Self { root, axis, length, bend, to: axis, longer: 1.0, beside: DMat3::ZERO, shift: DVec3::ZERO }
-    }
-
-    /// That of finger number `digit`, thumb first, which so much of the way becomes that of a mitt: a thumb turns into the plane of
-    /// the fingers, and comes nearer to it; the others go on as the palm leads, and become thicker.
-    pub(super) fn closed(self, digit: usize, palm: &Palm, share: f64) -> Self {
-        if digit > 0 {
-            return self.turned(self.axis.lerp(palm.along, share), 1.0 + THICKER * share);
-        }
-        let shift = share * TO_PALM * palm.way_to(self.root);
-        Self { shift, ..self.turned(self.axis - share * self.axis.project_onto_normalized(palm.normal), 1.0) }
-    }
-
-    /// Turned along `to`, and so much thicker.
-    fn turned(self, to: DVec3, thicker: f64) -> Self {
-        let to = to.normalize_or(self.axis);
-        let turn = DMat3::from_quat(DQuat::from_rotation_arc(self.axis, to));
-        Self { to, beside: thicker * turn - DMat3::IDENTITY, ..self }
-    }
-
-    /// How far along the axis `p` of the finger is, what is beside its bones there, and how much of [`Self::beside`] that
-    /// takes, with the slope.
-    fn locate(&self, p: DVec3) -> (f64, DVec3, [f64; 2]) {
-        let along = (p - self.root).dot(self.axis);
-        let [bone, _] = beside(self.bend.0, self.length, along);
-        let over = 2.0 * HAND_FADE * self.length;
-        let (share, slope) = smoothstep_slope(along / over);
-        (along, p - self.root - along * self.axis - bone * self.bend.1, [share, slope / over])
-    }
-
-    /// How far what is so far along the bones goes, and the slope there.
-    fn bones(&self, along: f64) -> [DVec3; 2] {
-        let turned = leaving(along, self.length);
-        let beyond = leaving(along - self.bend.0, self.length - self.bend.0);
-        [0, 1].map(|which| {
-            turned[which] * (self.to - self.axis) + (self.longer - 1.0) * beyond[which] * self.to
-        })
-    }
-
-    /// How far `p` goes.
-    pub(super) fn way(&self, p: DVec3) -> DVec3 {
-        let (along, off, [share, _]) = self.locate(p);
-        self.shift + self.bones(along)[0] + share * (self.beside * off)
-    }
-
-    /// The derivative of [`Self::way`].
-    fn slope(&self, p: DVec3) -> DMat3 {
-        let (along, off, [share, slope]) = self.locate(p);
-        let bone = self.axis + beside(self.bend.0, self.length, along)[1] * self.bend.1;
-        let by_place = self.bones(along)[1] + self.beside * (slope * off - share * bone);
-        self.beside * share + outer(by_place, self.axis)
-    }
+pub(super) fn on_bones((bend, elbow): (f64, DVec2), length: f64, s: f64) -> [DVec2; 2] {
+    let (away, slope) =
+        if s < bend { (s, 1.0 / bend) } else { (length - s, -1.0 / (length - bend).max(1e-30)) };
+    if away > 0.0 { [away * slope.abs() * elbow, slope * elbow] } else { [DVec2::ZERO; 2] }
 }
 
 impl ArmMap {
@@ -418,27 +281,16 @@ impl ArmMap {
         let (s, place) = self.planes.locate(p);
         let at = self.table.at(s);
         let row = at.values();
-        let line = |of: &[f64; 9]| [DVec2::new(of[5], of[6]), DVec2::new(of[7], of[8])];
-        let mut middles = line(&row);
-        let to_hand = smoothstep_slope((s - self.length) / self.hand_fade);
         let [bone, bone_slope] = on_bones(self.elbow, self.length, s);
-        let bones = [bone, self.bone_scale * bone];
-        if about_bones {
-            middles = [0, 1].map(|which| bones[which].lerp(middles[which], to_hand.0));
-        }
+        let middles =
+            if about_bones { [bone, self.bone_scale * bone] } else { [DVec2::new(row[5], row[6]); 2] };
         let across = slab(place.x - middles[0].x, row[1], row[3]);
         let front = slab(place.y - middles[0].y, row[2], row[4]);
         let to = middles[1] + DVec2::new(across.to, front.to);
         M::of(self.base + self.planes.point(s + row[0], to), || {
             let slopes = at.slopes();
-            let mut leans = line(&slopes);
-            if about_bones {
-                let bone_leans = [bone_slope, self.bone_scale * bone_slope];
-                leans = [0, 1].map(|which| {
-                    let apart = line(&row)[which] - bones[which];
-                    bone_leans[which].lerp(leans[which], to_hand.0) + apart * (to_hand.1 / self.hand_fade)
-                });
-            }
+            let line = DVec2::new(slopes[5], slopes[6]);
+            let leans = if about_bones { [bone_slope, self.bone_scale * bone_slope] } else { [line; 2] };
             let across_slope = across.by_scale * slopes[1] + across.by_half * slopes[3] + leans[1].x
                 - across.by_place * leans[0].x;
             let front_slope = front.by_scale * slopes[2] + front.by_half * slopes[4] + leans[1].y
@@ -478,13 +330,6 @@ impl FootMap {
             )
         })
     }
-}
-
-/// The scales of palm and fingers that make a hand `scale` times as long: mitts have shorter fingers, not shorter palms.
-fn palm_and_fingers(scale: f64) -> [f64; 2] {
-    let shorter = scale.min(1.0).powf(FINGERS_SHORTER);
-    let palm = scale / (PALM + (1.0 - PALM) * shorter);
-    [palm, palm * shorter]
 }
 
 /// `share` of the second map and the rest of the first, where the share changes by `slope`.

@@ -19,6 +19,7 @@ pub mod station;
 pub mod wanted;
 
 mod cuts;
+mod hand;
 mod numbers;
 
 pub use chart::{Chart, Slices};

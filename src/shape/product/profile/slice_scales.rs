@@ -111,6 +111,8 @@ pub struct Scales {
     pub arm_length: f64,
     /// Length, breadth, thickness.
     pub hand: [f64; 3],
+    /// How much of a mitt it becomes: none, until [`Chart::slices`](super::Chart::slices) says so.
+    pub mitt: f64,
     /// Length, breadth, height of the toes.
     pub foot: [f64; 3],
     /// Of the neck's radius.
@@ -170,6 +172,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         arm: SliceScales::NONE,
         arm_length: 1.0,
         hand: [1.0; 3],
+        mitt: 0.0,
         foot: [1.0; 3],
         neck: 1.0,
         skirt: Vec::new(),
@@ -191,7 +194,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         // Palms may look down or forward: what is broader is the breadth.
         let sorted = |[length, one, other]: [f64; 3]| [length, one.max(other), one.min(other)];
         // A fist is neither, and takes the mean: last digits must not tell which way it lies.
-        let lies = ((own[1] / own[2]).ln() / FLAT_HAND.ln()).clamp(-1.0, 1.0);
+        let lies = lies_flat(own[1], own[2]);
         let (wanted, own, strength) = (sorted(wanted), sorted(own), strengths.hand);
         let [length, broad, thin] = [0, 1, 2].map(|axis| {
             let got = soft_scale(wanted[axis], own[axis], strength, most);
@@ -208,6 +211,11 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
         result.neck = (wanted.min(own.max(STYLES_NECK)) / own).clamp(NECK.0, NECK.1).powf(strengths.neck);
     }
     result
+}
+
+/// How flat a hand lies, from -1, where it stands, to 1: by its breadth to the front and across. A fist does neither.
+pub fn lies_flat(front: f64, across: f64) -> f64 {
+    ((front / across).ln() / FLAT_HAND.ln()).clamp(-1.0, 1.0)
 }
 
 /// How much of a mitt, 0 to 1, a hand becomes whose length, breadth and thickness are scaled so.
