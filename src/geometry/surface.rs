@@ -188,7 +188,8 @@ impl Surface {
     fn closest_from(&self, p: DVec3, guess: Option<u32>) -> Option<Closest> {
         let p = self.searched(p)?;
         let nowhere = (f64::INFINITY, u32::MAX, DVec3::ZERO, [0.0; 3]);
-        let mut best = guess.map_or(nowhere, |slot| self.nearest_of(slot as usize, p));
+        let guessed = guess.map_or(nowhere, |slot| self.nearest_of(slot as usize, p));
+        let mut best = guessed;
         self.walk_near(p, best.0, |slot| {
             let found = self.nearest_of(slot, p);
             if (found.0, found.1) < (best.0, best.1) {
@@ -196,7 +197,9 @@ impl Surface {
             }
             best.0
         });
-        Some(self.closest(best))
+        // Two sheets in one place, as of tubes that meet, would take turns by last digits.
+        let is_as_near = guessed.0 <= best.0 * (1.0 + f64::from(f32::EPSILON));
+        Some(self.closest(if is_as_near { guessed } else { best }))
     }
 
     /// Whether any point of the surface is within `reach` of `p`; false for an empty surface.
@@ -221,18 +224,15 @@ impl Surface {
     }
 
     /// Calls `visit` for the closest point of every triangle within `reach` of `p`, the nearest boxes first, until it says
-    /// false: then for what is left of a box.
+    /// false.
     fn visit_within(&self, p: DVec3, reach: f64, mut visit: impl FnMut(Closest) -> bool) {
         let Some(p) = self.searched(p) else { return };
         let limit = reach * self.scale;
-        let mut square = limit * limit;
+        let (square, mut goes_on) = (limit * limit, true);
         self.walk_near(p, square, |slot| {
             let near = self.nearest_of(slot, p);
-            let goes_on = near.0.sqrt() > limit || visit(self.closest(near));
-            if !goes_on {
-                square = f64::NEG_INFINITY;
-            }
-            square
+            goes_on = goes_on && (near.0.sqrt() > limit || visit(self.closest(near)));
+            if goes_on { square } else { f64::NEG_INFINITY }
         });
     }
 
@@ -903,6 +903,29 @@ mod tests {
     }
 
     #[test]
+    fn of_two_sheets_in_one_place_the_guess_is_found() {
+        // Corners of which one lies a last digit nearer.
+        let corners =
+            |z: f64| [DVec3::new(-1.0, -1.0, z), DVec3::new(2.0, -1.0, z), DVec3::new(-1.0, 2.0, z)];
+        let positions: Vec<DVec3> = [0.0, 1e-9, -1e-9].into_iter().flat_map(corners).collect();
+        let triangles = [[0, 1, 2], [3, 5, 4], [6, 7, 8]];
+        let surface = Surface::for_many(&positions, &triangles);
+        let tree = Tree::of(&surface, triangles.len());
+        for z in [-0.3, 0.3] {
+            for guess in 0..3 {
+                let found = surface.closest_point_near(DVec3::new(0.1, 0.1, z), Some(guess), &tree);
+                assert_eq!(found.map(|closest| closest.triangle), Some(guess as usize));
+            }
+            // One that is further is not: the whole surface is searched.
+            let mut moved = positions.clone();
+            moved[..3].iter_mut().for_each(|p| p.z -= 0.01 * z.signum());
+            let surface = Surface::with_tree(&moved, &triangles, &tree);
+            let found = surface.closest_point_near(DVec3::new(0.1, 0.1, z), Some(0), &tree).unwrap();
+            assert_ne!(found.triangle, 0);
+        }
+    }
+
+    #[test]
     fn a_tree_that_stays_finds_what_a_new_one_finds() {
         let mut random = Random(5);
         let (mut positions, triangles) = turned(-1.0, &[(0.5, -0.6), (0.8, 0.0), (0.4, 0.7)], 1.0, 24);
@@ -918,9 +941,15 @@ mod tests {
                 let (p, direction) = (3.0 * random.point(), random.point());
                 assert_eq!(moved.all_hits(p, direction), new.all_hits(p, direction));
                 let wanted = new.closest_point(p);
-                for guess in [None, Some(index % triangles.len() as u32), Some(u32::MAX)] {
+                for guess in [None, Some(u32::MAX)] {
                     assert_eq!(moved.closest_point_near(p, guess, &tree), wanted);
                 }
+                // A guess that is as near, across an edge, is as good.
+                let guess = index % triangles.len() as u32;
+                let found = moved.closest_point_near(p, Some(guess), &tree);
+                let (found, wanted) = (found.unwrap(), wanted.unwrap());
+                assert!((found.distance - wanted.distance).abs() < 1e-6 * wanted.distance);
+                assert!(found == wanted || found.triangle == guess as usize, "{found:?} {wanted:?}");
             }
         }
         // A triangle without area, and one that has some again.

@@ -52,7 +52,8 @@ impl Surface {
         Self { nodes, corners, triangles: tree.triangles.clone(), centre, scale }
     }
 
-    /// As [`Self::closest_point`], of a surface that was made with `tree`: sooner where it is near the triangle `guess`.
+    /// As [`Self::closest_point`], of a surface that was made with `tree`: sooner where it is near the triangle `guess`, which is
+    /// what is found where others are as near but for last digits of single precision.
     pub fn closest_point_near(&self, p: DVec3, guess: Option<u32>, tree: &Tree) -> Option<Closest> {
         let slot = guess.and_then(|guess| tree.slots.get(guess as usize)).copied();
         // A surface that did not take the tree has another order: a bad guess finds the same.
