@@ -28,22 +28,23 @@ struct Known {
     lengths: [f64; 3],
 }
 
-/// Bodies without tunics and shorts: of 2.2 heads after KayKit's adventurers (rogue, barbarian), of 4.5 after MakeHuman's
-/// baby, and between Godette and the baby; smoothed by hand. In head lengths.
+/// Bodies without tunics and shorts: of 2.2 heads after KayKit's adventurers (rogue, barbarian), but that a trunk goes over into
+/// its legs, where theirs stands on two posts, and narrows to the shoulders; of 4.5 after MakeHuman's baby, and between Godette and the
+/// baby; smoothed by hand. In head lengths.
 const KNOWN: [Known; 3] = [
     Known {
         heads: 2.2,
         torso: [
-            [0.38, 0.385, 0.385, 0.37, 0.33],
-            [0.30, 0.31, 0.31, 0.30, 0.28],
-            [0.0, 0.01, 0.02, 0.02, 0.01],
+            [0.345, 0.375, 0.37, 0.335, 0.28],
+            [0.22, 0.28, 0.305, 0.285, 0.25],
+            [0.0, 0.015, 0.025, 0.02, 0.01],
         ],
-        leg_outward: 0.17,
-        leg: [0.115, 0.115, 0.115, 0.11, 0.115],
-        arm: [0.13, 0.115, 0.105, 0.11, 0.115],
+        leg_outward: 0.18,
+        leg: [0.14, 0.132, 0.124, 0.115, 0.115],
+        arm: [0.12, 0.112, 0.105, 0.108, 0.112],
         hand: [0.19, 0.115, 0.105],
         foot: [0.29, 0.115, 0.12, 0.17, 0.155],
-        lengths: [0.15, 0.24, 0.60],
+        lengths: [0.14, 0.21, 0.56],
     },
     Known {
         heads: 3.4,
@@ -75,12 +76,13 @@ const KNOWN: [Known; 3] = [
     },
 ];
 
-/// The profile of a body of `heads` heads.
+/// The profile of a body of `heads` heads; one of fewer than all that are known is the first of them, smaller under its head.
 pub fn canonical(heads: f64) -> Profile {
     let at = KNOWN.iter().rposition(|known| known.heads <= heads).unwrap_or(0).min(KNOWN.len() - 2);
     let (low, high) = (&KNOWN[at], &KNOWN[at + 1]);
     let t = ((heads - low.heads) / (high.heads - low.heads)).clamp(0.0, 1.0);
-    let mix = |a: f64, b: f64| a + t * (b - a);
+    // All of it is as much smaller as what is left below the head.
+    let mix = |a: f64, b: f64| ((heads - 1.0) / (low.heads - 1.0)).min(1.0) * (a + t * (b - a));
     let row = |ends: (f64, f64), read: &dyn Fn(&Known) -> [f64; 5]| -> Row {
         let places: [f64; 5] = std::array::from_fn(|knot| ends.0 + (ends.1 - ends.0) * knot as f64 / 4.0);
         let (a, b) = (read(low), read(high));
@@ -123,10 +125,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn known_bodies_are_met_and_between_them_all_is_between() {
+    fn known_bodies_are_met_and_between_them_all_is_between_and_below_them_smaller() {
         let bottom = |heads: f64| canonical(heads).torso.unwrap().breadth[0];
-        assert_eq!((bottom(2.2), bottom(1.8), bottom(4.5), bottom(9.0)), (0.38, 0.38, 0.52, 0.52));
-        assert!((bottom(2.8) - 0.415).abs() < 1e-12);
+        assert_eq!((bottom(2.2), bottom(4.5), bottom(9.0)), (0.345, 0.52, 0.52));
+        assert!((bottom(2.8) - 0.3975).abs() < 1e-12);
+        // Half as much below the head.
+        assert!((bottom(1.6) - 0.1725).abs() < 1e-12);
         let hand = canonical(3.95).hand.unwrap();
         assert!((hand[0] - 0.415).abs() < 1e-12, "{hand:?}");
     }
