@@ -29,8 +29,8 @@ struct Known {
 }
 
 /// Bodies without tunics and shorts: of 2.2 heads after KayKit's adventurers (rogue, barbarian), but that a trunk goes over into
-/// its legs, where theirs stands on two posts, and narrows to the shoulders; of 4.5 after MakeHuman's baby, and between Godette and the
-/// baby; smoothed by hand. In head lengths.
+/// its legs, where theirs stands on two posts, and narrows to the shoulders, and that feet fill trousers' cuffs; of 4.5 after
+/// MakeHuman's baby, and between Godette and the baby; smoothed by hand. In head lengths.
 const KNOWN: [Known; 3] = [
     Known {
         heads: 2.2,
@@ -43,7 +43,7 @@ const KNOWN: [Known; 3] = [
         leg: [0.14, 0.132, 0.124, 0.115, 0.115],
         arm: [0.12, 0.112, 0.105, 0.108, 0.112],
         hand: [0.19, 0.115, 0.105],
-        foot: [0.29, 0.115, 0.12, 0.17, 0.155],
+        foot: [0.29, 0.12, 0.135, 0.18, 0.16],
         lengths: [0.14, 0.21, 0.56],
     },
     Known {
