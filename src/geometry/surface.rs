@@ -198,7 +198,7 @@ impl Surface {
             best.0
         });
         // Two sheets in one place, as of tubes that meet, would take turns by last digits.
-        let is_as_near = guessed.0 <= best.0 * (1.0 + f64::from(f32::EPSILON));
+        let is_as_near = guess.is_some() && guessed.0 <= best.0 * (1.0 + f64::from(f32::EPSILON));
         Some(self.closest(if is_as_near { guessed } else { best }))
     }
 
