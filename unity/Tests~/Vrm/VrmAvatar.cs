@@ -148,9 +148,10 @@ namespace SuperDeform.Editor.Tests
         public List<Finding> Findings;
 
         /// <summary>The prefab at 1.8 heads, as the example program was asked: the rogue is a stubby one already.</summary>
-        public GameObject Convert()
+        public GameObject Convert(params GroupSettings[] groups)
         {
             var settings = new ConversionSettings { Heads = 1.8f, OutputFolder = "Assets/Results" };
+            settings.Options.Groups.AddRange(groups);
             ConversionResult result = Converter.Convert(Root, settings, null);
             Findings = result.Findings;
             return result.Prefab;

@@ -95,8 +95,10 @@ namespace SuperDeform.Editor.Tests
             VrmAvatar avatar = VrmAvatar.Vrm1("rogue");
             avatar.Convert();
             Assert.AreEqual(1, avatar.Findings.Count(finding => finding.Key == "collider_yields"));
-            Finding deep = avatar.Findings.Single(finding => finding.Key == "spring_in_collider");
-            Assert.AreSame(avatar.Find("hips"), deep.Where);
+            VrmAvatar stout = VrmAvatar.Vrm1("rogue");
+            stout.Convert(new GroupSettings { Group = "torso", ThicknessScale = 1.25f });
+            Finding deep = stout.Findings.Single(finding => finding.Key == "spring_in_collider");
+            Assert.AreSame(stout.Find("hips"), deep.Where);
             // Without springs they are as thick as the mesh: those that yield are thicker.
             float yielding = avatar.New("collider").Where(line => line.Joint == "spine" && line.Shape == "sphere").Single().Last;
             VrmAvatar free = VrmAvatar.Vrm1("rogue");
