@@ -88,10 +88,11 @@ pub fn adultness(face: &FaceLandmarks) -> f64 {
 /// Half a child's head's width at each station of its outline up to [`DEEPEST`], where [`CHILD_SKULL`] is what it is at
 /// most. Above, a skull widens as it does there and keeps its dome.
 const CHILD_WIDTHS: [f64; 5] = [0.28, 0.40, 0.445, 0.455, 0.455];
-/// How far a child's front and back are from the middle, where [`CHILD_SKULL_DEPTH`] is the most.
-const CHILD_FRONTS: [f64; 8] = [0.385, 0.45, 0.475, 0.48, 0.485, 0.48, 0.45, 0.375];
+/// How far a child's front and back are from the middle, where [`CHILD_SKULL_DEPTH`] is the most. Seen: a tenth more in the highest
+/// makes crowns flat.
+const CHILD_FRONTS: [f64; 8] = [0.385, 0.45, 0.475, 0.48, 0.485, 0.485, 0.455, 0.33];
 /// See [`CHILD_FRONTS`].
-const CHILD_BACKS: [f64; 8] = [0.14, 0.355, 0.42, 0.46, 0.48, 0.475, 0.435, 0.345];
+const CHILD_BACKS: [f64; 8] = [0.14, 0.345, 0.42, 0.465, 0.485, 0.475, 0.425, 0.30];
 /// A head widens by at most this factor, and no further with its hair than this.
 const MOST_WIDENING: (f64, f64) = (1.25, 0.56);
 /// The jaw goes back, and the front of the skull comes forward, by at most this.
