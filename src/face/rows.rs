@@ -92,7 +92,7 @@ const CHILD_WIDTHS: [f64; 5] = [0.28, 0.40, 0.445, 0.455, 0.455];
 /// makes crowns flat.
 const CHILD_FRONTS: [f64; 8] = [0.385, 0.45, 0.475, 0.48, 0.485, 0.485, 0.455, 0.33];
 /// See [`CHILD_FRONTS`].
-const CHILD_BACKS: [f64; 8] = [0.14, 0.345, 0.42, 0.465, 0.485, 0.475, 0.425, 0.30];
+const CHILD_BACKS: [f64; 8] = [0.14, 0.355, 0.42, 0.46, 0.48, 0.475, 0.425, 0.30];
 /// A head widens by at most this factor, and no further with its hair than this.
 const MOST_WIDENING: (f64, f64) = (1.25, 0.56);
 /// The jaw goes back, and the front of the skull comes forward, by at most this.
