@@ -1,9 +1,8 @@
 //! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
-use super::curve::monotone_cubic;
 use super::cuts::{BodyFrame, BodyLines, on_limb};
-use super::hand::HAND_SIZES;
+use super::hand::size_at;
 use super::radius_map::Spot;
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
@@ -95,8 +94,7 @@ impl Chart {
         if let (Some(hand), Some(wanted), Some(sizes)) = (&mut smooth.hand, wanted.hand, lines.hand_sizes) {
             // What becomes a mitt is as large as that leaves it.
             share = mitt(std::array::from_fn(|axis| (wanted[axis] / hand[axis]).powf(strengths.hand)));
-            let shares = std::array::from_fn::<f64, HAND_SIZES, _>(|at| at as f64 / (HAND_SIZES - 1) as f64);
-            *hand = std::array::from_fn(|axis| monotone_cubic(&shares, &sizes.map(|size| size[axis]), share));
+            *hand = size_at(&sizes, share);
         }
         // The torso's own curve goes with its relief: parts that flattened it would put it back.
         let about = parts.about(frame.centre_line(smooth.torso.as_ref()));

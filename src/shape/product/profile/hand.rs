@@ -1,6 +1,7 @@
 //! Hands: fingers that close, and one map of all that a hand moves, by which a short thick one becomes a mitt.
 
 use super::chains::Chain;
+use super::curve::monotone_cubic;
 use super::cuts::{BEYOND, Body, mean_numbers, quantile};
 use super::slice_scales::lies_flat;
 use crate::character::Role;
@@ -29,11 +30,21 @@ const LINE_STEPS: usize = 6;
 /// eight times no less.
 const LINE_ROUNDS: usize = 3;
 /// How many sizes are read of a hand.
-pub const HAND_SIZES: usize = 5;
+const HAND_SIZES: usize = 5;
 
 /// Length, half breadth and half thickness of hands as they are, and of more and more of a mitt: how large closing and rounding
 /// leave them, which are scaled after it.
 pub type HandSizes = [[f64; 3]; HAND_SIZES];
+
+/// How much of a mitt each of [`HandSizes`] is.
+fn shares() -> [f64; HAND_SIZES] {
+    std::array::from_fn(|at| at as f64 / (HAND_SIZES - 1) as f64)
+}
+
+/// That of [`HandSizes`] at so much of a mitt.
+pub fn size_at(sizes: &HandSizes, share: f64) -> [f64; 3] {
+    std::array::from_fn(|axis| monotone_cubic(&shares(), &sizes.map(|size| size[axis]), share))
+}
 
 /// What makes a finger a part of a mitt: it lies beside the others, short and thick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,24 +109,16 @@ impl HandBox {
 /// What becomes of a hand: scaled along the axes of its arm about the wrist; and a mitt is straight, and nearly an ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HandMap {
-    hand: HandBox,
-    axes: DMat3,
-    scale: DVec3,
+    pub hand: HandBox,
+    /// Along, across, front.
+    pub scale: DVec3,
     /// How much of a mitt it becomes.
-    share: f64,
+    pub share: f64,
     /// The wrist of the result.
-    to: DVec3,
+    pub to: DVec3,
 }
 
 impl HandMap {
-    /// That of a hand which becomes `share` of a mitt.
-    ///
-    /// - `scale`: along, across, front. `to`: where its wrist goes.
-    pub fn new(hand: HandBox, scale: DVec3, share: f64, to: DVec3) -> Self {
-        let Planes { axis, across, front, .. } = hand.planes;
-        Self { hand, axes: DMat3::from_cols(axis, across, front), scale, share, to }
-    }
-
     /// How long the hand is as it is.
     pub fn length(&self) -> f64 {
         2.0 * self.hand.half.x
@@ -125,16 +128,17 @@ impl HandMap {
     /// the ellipsoid that fills the box; along each ray places keep their order, so nothing folds.
     pub fn map<M: Moved>(&self, p: DVec3) -> M {
         let HandBox { planes, line, middle, half } = self.hand;
-        let place = self.axes.transpose() * (p - planes.origin);
+        let axes = DMat3::from_cols(planes.axis, planes.across, planes.front);
+        let place = axes.transpose() * (p - planes.origin);
         let [beside, slope] = HandBox::beside(line, place.x);
         let off = place - self.share * beside - middle;
         let (n, round) = (off / half, self.share * ROUND);
         let fall = 1.0 + round * n.length_squared();
         let grown = ((1.0 + round) / fall).sqrt();
-        M::of(self.to + self.axes * (self.scale * (middle + grown * off)), || {
+        M::of(self.to + axes * (self.scale * (middle + grown * off)), || {
             let straighter = DMat3::IDENTITY - outer(self.share * slope, DVec3::X);
             let rounder = DMat3::IDENTITY * grown - outer(off, n / half) * (grown * round / fall);
-            self.axes * DMat3::from_diagonal(self.scale) * rounder * straighter * self.axes.transpose()
+            axes * DMat3::from_diagonal(self.scale) * rounder * straighter * axes.transpose()
         })
     }
 }
@@ -151,14 +155,13 @@ impl Body<'_> {
             let arm = Planes { origin: self.frame.limbs[side].end, ..planes };
             *filled = self.hand_box(side, places, &arm);
             let Some(hand) = *filled else { continue };
-            let size = |at: usize| {
-                let share = at as f64 / (HAND_SIZES - 1) as f64;
-                let mitt = HandMap::new(hand, DVec3::ONE, share, arm.origin);
+            let size = |share: f64| {
+                let mitt = HandMap { hand, scale: DVec3::ONE, share, to: arm.origin };
                 let closed = self.vertices_of_hand(side, places).map(self.closing(side, share));
                 let round: Vec<DVec3> = closed.map(|p| mitt.map(p)).collect();
                 Some(self.hand(&round, &arm)?.0)
             };
-            let sizes: Vec<[f64; 3]> = (0..HAND_SIZES).filter_map(size).collect();
+            let sizes: Vec<[f64; 3]> = shares().into_iter().filter_map(size).collect();
             sides.extend(HandSizes::try_from(sizes));
         }
         let mean = |at: usize| {
@@ -265,7 +268,7 @@ mod tests {
         let line = [DVec2::ZERO, DVec2::new(-0.1, 0.0)];
         let hand =
             HandBox { planes, line, middle: DVec3::new(1.0, 0.0, 0.1), half: DVec3::new(1.0, 0.2, 0.5) };
-        HandMap::new(hand, DVec3::new(0.5, 2.0, 1.0), share, DVec3::new(3.0, 1.0, 0.0))
+        HandMap { hand, scale: DVec3::new(0.5, 2.0, 1.0), share, to: DVec3::new(3.0, 1.0, 0.0) }
     }
 
     #[test]

@@ -262,7 +262,7 @@ impl BodyMap {
         let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand: None };
         arm.hand = lines.hands[side].map(|hand| {
             let to = arm.map(hand.planes.origin, false);
-            HandMap::new(hand, DVec3::new(long, thin, broad), scales.mitt, to)
+            HandMap { hand, scale: DVec3::new(long, thin, broad), share: scales.mitt, to }
         });
         Some(arm)
     }
