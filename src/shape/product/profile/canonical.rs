@@ -76,6 +76,12 @@ const KNOWN: [Known; 3] = [
     },
 ];
 
+/// How many times as far as its legs a trunk without a tunic reaches above them: across, forward.
+pub(super) const BARE_STEPS: [f64; 2] = {
+    let [Known { torso: [breadth, depth, _], leg_outward, leg, .. }, ..] = KNOWN;
+    [breadth[0] / (leg_outward + leg[0]), depth[0] / leg[0]]
+};
+
 /// The profile of a body of `heads` heads; one of fewer than all that are known is the first of them, smaller under its head.
 pub fn canonical(heads: f64) -> Profile {
     let at = KNOWN.iter().rposition(|known| known.heads <= heads).unwrap_or(0).min(KNOWN.len() - 2);

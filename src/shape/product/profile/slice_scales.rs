@@ -1,9 +1,11 @@
 //! From a body's own profile to the wanted one: how each slice is scaled and where its middle goes.
 
-use super::curve::monotone_cubic;
+use super::canonical::BARE_STEPS;
 use super::numbers::BothExtents;
 use super::slab::soft_scale;
-use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
+use super::{
+    LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, TorsoProfile, station_at, stations,
+};
 use crate::geometry::smoothstep;
 
 /// Soft limits of ln S: of slices and hands, and of feet.
@@ -21,13 +23,9 @@ const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
 const NECK: (f64, f64) = (0.7, 1.45);
 /// Where a style's neck is thicker than this, in head lengths, and than what it is given to, it wears a scarf.
 const STYLES_NECK: f64 = 0.18;
-/// The slice at which a reference's thigh below its shorts is believed, and how much thicker it is this far above.
-const BELOW_SHORTS: (f64, f64) = (0.45, 0.35);
-const GROWS_OVER: f64 = 0.35;
-/// What is cut off the thighs brings the legs nearer together by this part of it.
-const NEARER: f64 = 0.7;
-/// The torso above its hem, where it is believed, and how much broader hips may be.
-const ABOVE_HEM: (f64, f64) = (0.6, 1.25);
+/// A trunk and its legs go over into each other up to this place of both, where a reference's tunic is left out. Seen: at ±30 % 1
+/// to 4 of 100 results' legs more are off by over a tenth, of hips 3 fewer at less, and 1 to 3 triangles of all results more turn.
+const GOES_OVER: f64 = 0.55;
 
 /// What a soft limit takes of a scale is told above this share of it.
 const NOTED_ABOVE: f64 = 0.1;
@@ -223,40 +221,31 @@ pub fn mitt([length, broad, thin]: [f64; 3]) -> f64 {
     smoothstep(((broad * thin).sqrt() / length - 1.0) / MITT)
 }
 
-/// A reference's shorts and tunic are no flesh: its thighs taper on from below the shorts, its hips from above the hem. But
-/// whoever wears such things too keeps them.
+/// A reference's tunic is no flesh: where its trunk stands further off its legs than that of `own`, and than a bare one does,
+/// it ends in a hem, and trunk and legs go over into each other instead, each by half. Who wears such a thing too keeps it.
 pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
     let mut bare = wanted.clone();
-    let kept = |cap: f64, wanted: f64, own: Option<f64>| match own {
-        _ if cap >= wanted => wanted,
-        Some(own) => own.clamp(cap, wanted),
-        None => cap,
+    let (Some(torso), Some(leg), Some(own_torso), Some(own_leg)) =
+        (&mut bare.torso, &mut bare.leg, &own.torso, &own.leg)
+    else {
+        return bare;
     };
-    if let Some(leg) = &mut bare.leg {
-        let places = stations(LEG_STATIONS);
-        let (from, growth) = BELOW_SHORTS;
-        let below = [&leg.breadth, &leg.depth].map(|row| monotone_cubic(&places, row, from));
-        for (station, &t) in places.iter().enumerate().filter(|&(_, &t)| t < from) {
-            let taper = 1.0 + growth * (from - t) / GROWS_OVER;
-            let own = own.leg.as_ref();
-            let breadth = kept(below[0] * taper, leg.breadth[station], own.map(|own| own.breadth[station]));
-            let depth = kept(below[1] * taper, leg.depth[station], own.map(|own| own.depth[station]));
-            leg.outward[station] -= NEARER * (leg.breadth[station] - breadth);
-            leg.breadth[station] = breadth;
-            leg.depth[station] = depth;
-        }
-    }
-    if let Some(torso) = &mut bare.torso {
-        let places = stations(TORSO_STATIONS);
-        let (from, growth) = ABOVE_HEM;
-        let above = monotone_cubic(&places, &torso.breadth, from);
-        let hull = bare.leg.as_ref().map_or(0.0, |leg| leg.outward[0] + leg.breadth[0]);
-        let bottom = (growth * above).max(hull);
-        for (station, &t) in places.iter().enumerate().filter(|&(_, &t)| t < from) {
-            let cap = above + (bottom - above) * (from - t) / (from - places[0]);
-            let own = own.torso.as_ref().map(|own| own.breadth[station]);
-            torso.breadth[station] = kept(cap, torso.breadth[station], own);
-        }
+    let steps = |torso: &TorsoProfile, leg: &LegProfile| {
+        [torso.breadth[0] / (leg.outward[0] + leg.breadth[0]), torso.depth[0] / leg.depth[0]]
+    };
+    let (own, wanted) = (steps(own_torso, own_leg), steps(torso, leg));
+    let hem = [0, 1].map(|axis| (wanted[axis] / own[axis].max(BARE_STEPS[axis])).max(1.0).sqrt());
+    for station in 0..STATIONS {
+        let parts = |ends| {
+            let share = 1.0 - smoothstep(station_at(ends, station) / GOES_OVER);
+            hem.map(|hem| hem.powf(share))
+        };
+        let [breadth, depth] = parts(TORSO_STATIONS);
+        torso.breadth[station] /= breadth;
+        torso.depth[station] /= depth;
+        let [breadth, depth] = parts(LEG_STATIONS);
+        leg.breadth[station] += (breadth - 1.0) * (leg.outward[station] + leg.breadth[station]);
+        leg.depth[station] *= depth;
     }
     bare
 }
@@ -334,5 +323,41 @@ fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Streng
     result.foot = [length, breadth, toes];
     for axis in 0..2 {
         result.note("feet", after[axis], before[axis], strength, result.foot[axis]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::canonical::canonical;
+    use super::*;
+
+    #[test]
+    fn a_tunic_is_left_out_unless_who_takes_it_wears_one() {
+        let bare = canonical(2.2);
+        let mut dressed = bare.clone();
+        let torso = dressed.torso.as_mut().unwrap();
+        torso.breadth = torso.breadth.map(|half| 1.3 * half);
+        torso.depth = torso.depth.map(|half| 2.0 * half);
+        // Nothing to leave out, and nobody to leave it out for.
+        for (wanted, own) in [(&bare, &canonical(4.5)), (&dressed, &dressed), (&dressed, &Profile::default())]
+        {
+            assert_eq!(&flesh(wanted, own), wanted);
+        }
+        // Trunk and legs meet halfway, at the stations where they go over into each other, as a bare trunk and its legs do; far
+        // from there they stay.
+        let left = flesh(&dressed, &bare);
+        let torsos = [&left, &dressed].map(|profile| profile.torso.clone().unwrap());
+        let legs = [&left, &dressed].map(|profile| profile.leg.clone().unwrap());
+        let outer = |leg: &LegProfile| leg.outward[0] + leg.breadth[0];
+        let steps = [torsos[0].breadth[0] / outer(&legs[0]), torsos[0].depth[0] / legs[0].depth[0]];
+        for axis in 0..2 {
+            assert!((steps[axis] / BARE_STEPS[axis] - 1.0).abs() < 0.05, "{steps:?}");
+        }
+        assert!((torsos[1].depth[0] / torsos[0].depth[0] / 2f64.sqrt() - 1.0).abs() < 0.02);
+        let top = STATIONS - 1;
+        assert_eq!(
+            (torsos[0].depth[top], legs[0].breadth[top]),
+            (torsos[1].depth[top], legs[1].breadth[top])
+        );
     }
 }
