@@ -76,10 +76,22 @@ const KNOWN: [Known; 3] = [
     },
 ];
 
-/// How many times as far as its legs a trunk without a tunic reaches above them: across, forward.
-pub(super) const BARE_STEPS: [f64; 2] = {
-    let [Known { torso: [breadth, depth, _], leg_outward, leg, .. }, ..] = KNOWN;
-    [breadth[0] / (leg_outward + leg[0]), depth[0] / leg[0]]
+/// How a body without shorts and tunic widens towards the crotch, from the middle slices of trunk and leg to those next to it, and how
+/// far its trunk stands off its legs there: across, forward.
+pub(super) struct Bare {
+    pub torso_flares: [f64; 2],
+    pub leg_flare: f64,
+    pub steps: [f64; 2],
+}
+
+/// That of 3.4 heads is one.
+pub(super) const BARE: Bare = {
+    let Known { torso: [breadth, depth, _], leg_outward, leg, .. } = KNOWN[1];
+    Bare {
+        torso_flares: [breadth[0] / breadth[2], depth[0] / depth[2]],
+        leg_flare: leg[0] / leg[2],
+        steps: [breadth[0] / (leg_outward + leg[0]), depth[0] / leg[0]],
+    }
 };
 
 /// The profile of a body of `heads` heads; one of fewer than all that are known is the first of them, smaller under its head.

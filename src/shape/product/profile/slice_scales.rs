@@ -1,11 +1,9 @@
 //! From a body's own profile to the wanted one: how each slice is scaled and where its middle goes.
 
-use super::canonical::BARE_STEPS;
+use super::canonical::BARE;
 use super::numbers::BothExtents;
 use super::slab::soft_scale;
-use super::{
-    LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, TorsoProfile, station_at, stations,
-};
+use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
 use crate::geometry::smoothstep;
 
 /// Soft limits of ln S: of slices and hands, and of feet.
@@ -23,9 +21,8 @@ const ARM_LENGTH: (f64, f64) = (0.8, 1.05);
 const NECK: (f64, f64) = (0.7, 1.45);
 /// Where a style's neck is thicker than this, in head lengths, and than what it is given to, it wears a scarf.
 const STYLES_NECK: f64 = 0.18;
-/// A trunk and its legs go over into each other up to this place of both, where a reference's tunic is left out. Seen: at ±30 % 1
-/// to 4 of 100 results' legs more are off by over a tenth, of hips 3 fewer at less, and 1 to 3 triangles of all results more turn.
-const GOES_OVER: f64 = 0.55;
+/// The slice of trunk and legs up to which what a reference wears at its crotch is left out.
+const MIDDLE: usize = STATIONS / 2;
 
 /// What a soft limit takes of a scale is told above this share of it.
 const NOTED_ABOVE: f64 = 0.1;
@@ -221,33 +218,42 @@ pub fn mitt([length, broad, thin]: [f64; 3]) -> f64 {
     smoothstep(((broad * thin).sqrt() / length - 1.0) / MITT)
 }
 
-/// A reference's tunic is no flesh: where its trunk stands further off its legs than that of `own`, and than a bare one does,
-/// it ends in a hem, and trunk and legs go over into each other instead, each by half. Who wears such a thing too keeps it.
+/// A reference's shorts and tunic are no flesh: by what its thighs and its trunk widen more towards the crotch than those of `own`
+/// do, and than bare ones, they become slimmer, and where its trunk stands further off its legs, it ends in a hem, and both go over
+/// into each other, each by half. Who wears such things too keeps them.
 pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
-    let mut bare = wanted.clone();
+    let mut result = wanted.clone();
     let (Some(torso), Some(leg), Some(own_torso), Some(own_leg)) =
-        (&mut bare.torso, &mut bare.leg, &own.torso, &own.leg)
+        (&mut result.torso, &mut result.leg, &own.torso, &own.leg)
     else {
-        return bare;
+        return result;
     };
-    let steps = |torso: &TorsoProfile, leg: &LegProfile| {
-        [torso.breadth[0] / (leg.outward[0] + leg.breadth[0]), torso.depth[0] / leg.depth[0]]
+    let beyond = |wanted: f64, own: f64, bare: f64| (wanted / own.max(bare)).max(1.0);
+    let flare = |row: &Row| row[0] / row[MIDDLE];
+    let slimmer = |row: &Row, by: f64| -> Row {
+        let share = |station: usize| 1.0 - smoothstep(station as f64 / MIDDLE as f64);
+        std::array::from_fn(|station| row[station] / by.powf(share(station)))
     };
-    let (own, wanted) = (steps(own_torso, own_leg), steps(torso, leg));
-    let hem = [0, 1].map(|axis| (wanted[axis] / own[axis].max(BARE_STEPS[axis])).max(1.0).sqrt());
-    for station in 0..STATIONS {
-        let parts = |ends| {
-            let share = 1.0 - smoothstep(station_at(ends, station) / GOES_OVER);
-            hem.map(|hem| hem.powf(share))
-        };
-        let [breadth, depth] = parts(TORSO_STATIONS);
-        torso.breadth[station] /= breadth;
-        torso.depth[station] /= depth;
-        let [breadth, depth] = parts(LEG_STATIONS);
-        leg.breadth[station] += (breadth - 1.0) * (leg.outward[station] + leg.breadth[station]);
-        leg.depth[station] *= depth;
+    let thigh = |row: &Row, own: &Row| slimmer(row, beyond(flare(row), flare(own), BARE.leg_flare));
+    let breadth = thigh(&leg.breadth, &own_leg.breadth);
+    // The gap between the legs stays.
+    leg.outward = std::array::from_fn(|at| leg.outward[at] - (leg.breadth[at] - breadth[at]));
+    (leg.breadth, leg.depth) = (breadth, thigh(&leg.depth, &own_leg.depth));
+    let edges = |leg: &LegProfile| -> [Row; 2] {
+        [std::array::from_fn(|at| leg.outward[at] + leg.breadth[at]), leg.depth]
+    };
+    let (own_edges, edges) = (edges(own_leg), edges(leg));
+    let trunks = [(&mut torso.breadth, &own_torso.breadth), (&mut torso.depth, &own_torso.depth)];
+    for (axis, (trunk, own)) in trunks.into_iter().enumerate() {
+        let step = trunk[0] / edges[axis][0];
+        let by = beyond(flare(trunk), flare(own), BARE.torso_flares[axis]).min(step.max(1.0));
+        let hem = beyond(step / by, own[0] / own_edges[axis][0], BARE.steps[axis]).sqrt();
+        *trunk = slimmer(trunk, by * hem);
+        let (edge, broader) = (edges[axis], slimmer(&edges[axis], 1.0 / hem));
+        let row = if axis == 0 { &mut leg.breadth } else { &mut leg.depth };
+        *row = std::array::from_fn(|at| row[at] + (broader[at] - edge[at]));
     }
-    bare
+    result
 }
 
 /// How far each leg moves outward whose slices are scaled by `leg`.
@@ -332,32 +338,41 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_tunic_is_left_out_unless_who_takes_it_wears_one() {
-        let bare = canonical(2.2);
-        let mut dressed = bare.clone();
-        let torso = dressed.torso.as_mut().unwrap();
-        torso.breadth = torso.breadth.map(|half| 1.3 * half);
-        torso.depth = torso.depth.map(|half| 2.0 * half);
-        // Nothing to leave out, and nobody to leave it out for.
-        for (wanted, own) in [(&bare, &canonical(4.5)), (&dressed, &dressed), (&dressed, &Profile::default())]
-        {
+    fn shorts_and_a_tunic_are_left_out_unless_who_takes_them_wears_such() {
+        let bare = canonical(3.4);
+        // A tunic as broad all the way down.
+        let mut tunic = bare.clone();
+        let torso = tunic.torso.as_mut().unwrap();
+        (torso.breadth, torso.depth) = ([0.6; STATIONS], [0.5; STATIONS]);
+        let mut shorts = bare.clone();
+        let leg = shorts.leg.as_mut().unwrap();
+        for station in 0..4 {
+            leg.depth[station] *= 1.4;
+        }
+        // Nothing to leave out, whose own it is, and nobody to leave it out for.
+        let nobody = Profile::default();
+        for (wanted, own) in [(&bare, &tunic), (&tunic, &tunic), (&shorts, &shorts), (&tunic, &nobody)] {
             assert_eq!(&flesh(wanted, own), wanted);
         }
-        // Trunk and legs meet halfway, at the stations where they go over into each other, as a bare trunk and its legs do; far
-        // from there they stay.
-        let left = flesh(&dressed, &bare);
-        let torsos = [&left, &dressed].map(|profile| profile.torso.clone().unwrap());
-        let legs = [&left, &dressed].map(|profile| profile.leg.clone().unwrap());
-        let outer = |leg: &LegProfile| leg.outward[0] + leg.breadth[0];
-        let steps = [torsos[0].breadth[0] / outer(&legs[0]), torsos[0].depth[0] / legs[0].depth[0]];
+        let [dressed, left] = [tunic.clone(), flesh(&tunic, &bare)];
+        let leg = |profile: &Profile| profile.leg.clone().unwrap();
+        let torso = |profile: &Profile| profile.torso.clone().unwrap();
+        // Trunk and legs meet halfway, as far apart as a bare body's.
+        let steps = |profile: &Profile| {
+            let (torso, leg) = (torso(profile), leg(profile));
+            [torso.breadth[0] / (leg.outward[0] + leg.breadth[0]), torso.depth[0] / leg.depth[0]]
+        };
         for axis in 0..2 {
-            assert!((steps[axis] / BARE_STEPS[axis] - 1.0).abs() < 0.05, "{steps:?}");
+            assert!((steps(&left)[axis] / steps(&bare)[axis] - 1.0).abs() < 1e-9, "{:?}", steps(&left));
         }
-        assert!((torsos[1].depth[0] / torsos[0].depth[0] / 2f64.sqrt() - 1.0).abs() < 0.02);
-        let top = STATIONS - 1;
-        assert_eq!(
-            (torsos[0].depth[top], legs[0].breadth[top]),
-            (torsos[1].depth[top], legs[1].breadth[top])
-        );
+        let (thinner, thicker) =
+            (torso(&dressed).depth[0] / torso(&left).depth[0], leg(&left).depth[0] / leg(&dressed).depth[0]);
+        assert!((thinner / thicker - 1.0).abs() < 1e-9, "{thinner} {thicker}");
+        // Thighs without shorts are a bare body's.
+        let without = leg(&flesh(&shorts, &bare)).depth[0];
+        assert!((without / leg(&bare).depth[0] - 1.0).abs() < 1e-9, "{without}");
+        // From the middle on nothing is left out.
+        assert_eq!(torso(&left).depth[MIDDLE..], torso(&dressed).depth[MIDDLE..]);
+        assert_eq!(leg(&left).breadth[MIDDLE..], leg(&dressed).breadth[MIDDLE..]);
     }
 }
