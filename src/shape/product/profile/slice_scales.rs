@@ -239,8 +239,9 @@ pub fn flesh(wanted: &Profile, own: &Profile) -> Profile {
     // The gap between the legs stays.
     leg.outward = std::array::from_fn(|at| leg.outward[at] - (leg.breadth[at] - breadth[at]));
     (leg.breadth, leg.depth) = (breadth, thigh(&leg.depth, &own_leg.depth));
+    // A leg beyond the body's middle reaches out as far as it is broad.
     let edges = |leg: &LegProfile| -> [Row; 2] {
-        [std::array::from_fn(|at| leg.outward[at] + leg.breadth[at]), leg.depth]
+        [std::array::from_fn(|at| leg.outward[at].max(0.0) + leg.breadth[at]), leg.depth]
     };
     let (own_edges, edges) = (edges(own_leg), edges(leg));
     let trunks = [(&mut torso.breadth, &own_torso.breadth), (&mut torso.depth, &own_torso.depth)];
