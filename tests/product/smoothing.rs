@@ -1,4 +1,4 @@
-//! `smoothing.rs`: weights along a mesh and across layers, on grids whose smoothing can be worked out.
+//! `smoothing.rs`: weights on grids whose smoothing can be worked out.
 
 use crate::tubes::blended;
 use glam::DVec3;
@@ -6,14 +6,16 @@ use superdeform::Progress;
 use superdeform::internals::geometry::weld::{Weld, weld};
 use superdeform::internals::shape::figure::Figure;
 use superdeform::internals::shape::product::part::{PART_COUNT, Part, PartWeights};
-use superdeform::internals::shape::product::smoothing::{Fork, smooth_across, smooth_along};
+use superdeform::internals::shape::product::smoothing::{Fork, smooth};
 
 /// Far below everything: nothing is a leg's.
 const NO_FORK: Fork = Fork { crotch: -1e9, apart: 1.0 };
 /// Vertices along each side of a grid.
 const SIDE: usize = 41;
-/// The width of the smoothing on a figure of height 1, and the grid's spacing.
+/// The width of a step on a figure of height 1, and the grid's spacing.
 const WIDTH: f64 = 0.012;
+/// What all steps together come to, in those.
+const WIDTH_OF_ALL: f64 = 2.6;
 
 /// A figure of height 1 with these points and triangles, and nothing else of the person that it was.
 fn figure(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> (Figure, Weld) {
@@ -44,48 +46,35 @@ fn mixed(first: Part, share: f32, second: Part) -> PartWeights {
     row
 }
 
-#[test]
-fn a_point_spreads_over_the_mesh_as_far_as_ten_steps_go() {
+/// How wide a border between two halves of a grid becomes: the variance of the change across it, where edges are `spacing` steps long.
+fn border(spacing: f64) -> f64 {
     let (positions, triangles) = grid(0.0, 0);
-    let (figure, weld) = figure(positions, triangles);
-    let middle = SIDE / 2 * SIDE + SIDE / 2;
-    let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
-    rows[middle] = Part::Neck.alone();
-    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1, &mut Progress::none()).unwrap();
-    let neck = |vertex: usize| f64::from(rows[vertex][Part::Neck as usize]);
-    let total: f64 = (0..rows.len()).map(neck).sum();
-    assert!((total - 1.0).abs() < 1e-4, "{total}");
-    // The median edge is as long as the smoothing is wide: ten steps, each 0.6 of the way to the mean of six neighbours, of
-    // which four lie one to the side. The variance of such a walk is 10 * 0.6 * 4 / 6.
-    for axis in [0, 1] {
-        let from_middle = |vertex: usize| (figure.positions[vertex] - figure.positions[middle])[axis] / WIDTH;
-        let variance: f64 = (0..rows.len()).map(|vertex| neck(vertex) * from_middle(vertex).powi(2)).sum();
-        assert!((variance - 4.0).abs() < 1e-3, "{variance}");
-        // It reaches no further than ten steps.
-        assert!((0..rows.len()).all(|vertex| from_middle(vertex).abs() < 10.5 || neck(vertex) == 0.0));
-    }
-    for row in &rows {
-        assert!((row.iter().sum::<f32>() - 1.0).abs() < 1e-5);
+    let (figure, weld) = figure(positions.into_iter().map(|p| spacing * p).collect(), triangles);
+    let is_neck = |vertex: usize| vertex % SIDE > SIDE / 2;
+    let row = |vertex| if is_neck(vertex) { Part::Neck.alone() } else { Part::Torso.alone() };
+    let mut rows: Vec<PartWeights> = (0..SIDE * SIDE).map(row).collect();
+    smooth(&figure, &weld, &vec![false; rows.len()], NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
+    assert!(rows.iter().all(|row| (row.iter().sum::<f32>() - 1.0).abs() < 1e-5));
+    let neck = |x: usize| f64::from(rows[SIDE / 2 * SIDE + x][Part::Neck as usize]);
+    let way = |x: usize| spacing * (x as f64 - (SIDE / 2) as f64);
+    (0..SIDE - 1).map(|x| (neck(x + 1) - neck(x)) * way(x).powi(2)).sum()
+}
+
+#[test]
+fn a_border_becomes_as_wide_on_fine_grids_as_on_coarse_ones() {
+    for spacing in [0.8, 0.5, 0.3] {
+        // Of the two ways on a surface each has half of the square of the width of all steps; they are whole ones.
+        let wanted = WIDTH_OF_ALL * WIDTH_OF_ALL / 2.0;
+        assert!((border(spacing) / wanted - 1.0).abs() < 0.15, "{spacing}: {}", border(spacing));
     }
 }
 
 #[test]
-fn what_is_frozen_stays_and_draws_its_neighbours() {
-    let (positions, triangles) = grid(0.0, 0);
-    let (figure, weld) = figure(positions, triangles);
-    let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
-    let is_left = |vertex: usize| vertex % SIDE < 10;
-    (0..rows.len()).filter(|&vertex| is_left(vertex)).for_each(|vertex| rows[vertex] = Part::Head.alone());
-    let frozen: Vec<bool> = (0..rows.len()).map(is_left).collect();
-    smooth_along(&figure, &weld, &frozen, &mut rows, 1, &mut Progress::none()).unwrap();
-    let head = |x: usize| rows[20 * SIDE + x][Part::Head as usize];
-    assert!((0..10).all(|x| head(x) == 1.0));
-    assert!(
-        (10..20).all(|x| head(x) > 0.0 && head(x) < head(x - 1)),
-        "{:?}",
-        (0..25).map(head).collect::<Vec<_>>()
-    );
-    assert!((20..SIDE).all(|x| head(x) == 0.0));
+fn what_is_further_apart_than_a_step_reaches_is_smoothed_over_its_edges() {
+    for spacing in [2.0, 4.0, 8.0] {
+        // Three steps, each an edge wide at least.
+        assert!(border(spacing) > 3.0 / 2.0 * spacing * spacing, "{spacing}: {}", border(spacing));
+    }
 }
 
 #[test]
@@ -102,7 +91,7 @@ fn copies_along_a_seam_share_one_row_and_loose_meshes_none() {
     let mut rows = vec![Part::Torso.alone(); SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, Part::Neck.alone());
     rows.resize(3 * SIDE * SIDE, Part::LeftFoot.alone());
-    smooth_along(&figure, &weld, &vec![false; rows.len()], &mut rows, 1, &mut Progress::none()).unwrap();
+    smooth(&figure, &weld, &vec![false; rows.len()], NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
     for y in 0..SIDE {
         let (copy, other) = (y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE);
         assert_eq!(rows[copy], rows[other]);
@@ -127,7 +116,7 @@ fn where_hair_is_rooted_in_skin_the_skin_takes_its_weights() {
             .map(|vertex| if is_hair(vertex) { Part::Hair.alone() } else { Part::Torso.alone() })
             .collect();
         let frozen: Vec<bool> = (0..rows.len()).map(is_hair).collect();
-        smooth_along(&figure, &weld, &frozen, &mut rows, 1, &mut Progress::none()).unwrap();
+        smooth(&figure, &weld, &frozen, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
         for y in 0..SIDE {
             let seam = [y * SIDE + SIDE - 1, SIDE * SIDE + y * SIDE];
             assert!(seam.iter().all(|&vertex| rows[vertex] == Part::Hair.alone()), "{y}: {hair_first}");
@@ -148,17 +137,17 @@ fn layers_of_cloth_come_to_move_alike() {
     let mut rows = vec![skin; SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, cloth);
     let none = vec![false; rows.len()];
-    smooth_across(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
+    smooth(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
     for vertex in 0..SIDE * SIDE {
         let (below, above) = (rows[vertex][0], rows[SIDE * SIDE + vertex][0]);
-        // Half and half but for the kernel's difference between 0 and a tenth of its width, three times.
+        // Half and half but for the kernel's difference between 0 and a tenth of its width, at every step.
         assert!((below - above).abs() < 0.01 && (below - 0.5).abs() < 0.01, "{below} {above}");
     }
     // Frozen cloth neither moves nor draws.
     let mut rows = vec![skin; SIDE * SIDE];
     rows.resize(2 * SIDE * SIDE, cloth);
     let frozen: Vec<bool> = (0..rows.len()).map(|vertex| vertex >= SIDE * SIDE).collect();
-    smooth_across(&figure, &weld, &frozen, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
+    smooth(&figure, &weld, &frozen, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
     assert!(rows[..SIDE * SIDE].iter().all(|row| (row[0] - 0.8).abs() < 1e-5));
     assert!(rows[SIDE * SIDE..].iter().all(|row| (row[0] - 0.2).abs() < 1e-6));
 }
@@ -179,7 +168,7 @@ fn arms_do_not_draw_what_they_lie_on() {
         let mut rows = vec![arm.alone(); SIDE * SIDE];
         rows.resize(2 * SIDE * SIDE, other.alone());
         let none = vec![false; rows.len()];
-        smooth_across(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
+        smooth(&figure, &weld, &none, NO_FORK, &mut rows, 1, &mut Progress::none()).unwrap();
         assert!(rows[..SIDE * SIDE].iter().all(|row| (row[arm as usize] - 1.0).abs() < 1e-6), "{arm:?}");
         assert!(rows[SIDE * SIDE..].iter().all(|row| (row[other as usize] - 1.0).abs() < 1e-6), "{other:?}");
     }
@@ -198,9 +187,7 @@ fn threads_do_not_change_what_comes_out() {
         .collect();
     let smoothed = |threads: usize| {
         let mut rows = rows.clone();
-        smooth_along(&tubes.figure, &weld, &frozen, &mut rows, threads, &mut Progress::none()).unwrap();
-        smooth_across(&tubes.figure, &weld, &frozen, NO_FORK, &mut rows, threads, &mut Progress::none())
-            .unwrap();
+        smooth(&tubes.figure, &weld, &frozen, NO_FORK, &mut rows, threads, &mut Progress::none()).unwrap();
         rows
     };
     assert!(smoothed(1) == smoothed(3));

@@ -53,7 +53,7 @@ pub fn blended() -> &'static Tubes {
     BLENDED.get_or_init(|| Tubes::of(Person { blended: true, ..Person::adult() }))
 }
 
-/// The same with tubes twice as fine: smoothing along the mesh reaches half as far.
+/// The same with tubes twice as fine.
 pub fn fine() -> Person {
     Person { blended: true, columns: 96, ..Person::adult() }
 }

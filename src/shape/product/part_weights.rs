@@ -2,13 +2,13 @@
 //!
 //! The file's weights are made for animation: creases where they bend, borders where an artist put a joint, another
 //! set for each garment. Parts that shrink by different amounts tear such borders open. So the weights are folded
-//! into parts, head and neck are parted by the geometry, and then all is smoothed along the mesh and across
+//! into parts, head and neck are parted by the geometry, and then all is smoothed along the surface and across
 //! layers of cloth; the file's own weights stay as they are.
 
 use super::anatomy::Anatomy;
 use super::part::{Part, PartWeights, TINY, fold_to_parts};
 use super::skirt_weights::follow_legs;
-use super::smoothing::{Fork, smooth_across, smooth_along};
+use super::smoothing::{Fork, smooth};
 use crate::character::{MeshKind, Role};
 use crate::error::Result;
 use crate::geometry::{Weld, smoothstep};
@@ -78,14 +78,7 @@ pub fn part_weights(
     let fork = Fork { crotch, apart: FORK * (crotch - ankles) };
     follow_legs(figure, fork, &mut parts);
     progress.at(0.1)?;
-    // Thin limbs of a mascot are a few long edges, along which feet would reach up to the trunk.
-    if anatomy.landmarks.trunk.is_none() {
-        smooth_along(figure, weld, &head_only, &mut parts, threads, &mut progress.part(0.1, 0.3))?;
-    }
-    // Skin at the root of hair has moved over to the hair's weights, and must stay there or the hair line opens.
-    let holds_fixed = weld.any(&fixed);
-    let frozen: Vec<bool> = weld.representative.iter().map(|&welded| holds_fixed[welded as usize]).collect();
-    smooth_across(figure, weld, &frozen, fork, &mut parts, threads, &mut progress.part(0.3, 1.0))?;
+    smooth(figure, weld, &fixed, fork, &mut parts, threads, &mut progress.part(0.1, 1.0))?;
     for (row, &p) in parts.iter_mut().zip(&figure.positions) {
         settle_soles(row, p, anatomy);
     }
