@@ -7,7 +7,7 @@ use super::body_shape::{BodyShape, BoneShape, FaceStyle, VERSION, either};
 use super::measured::Measured;
 use super::product::anatomy::Proportions;
 use super::product::profile::Profile;
-use super::product::profile::canonical::canonical;
+use super::product::profile::wanted::canonical;
 use crate::character::Character;
 use crate::error::{Error, ErrorKind, Result};
 use crate::options::{HEADS, Options};

@@ -5,7 +5,7 @@ use super::part::{Part, PartWeights, digits};
 use super::part_weights::part_weights;
 use super::pieces::{Attachment, Piece, PieceSources, Pieces, touching};
 use super::profile::chains::arm_share;
-use super::profile::skirts::skirt_vertices;
+use super::profile::chains::skirt_vertices;
 use crate::character::{MeshKind, Role, Skeleton};
 use crate::error::Result;
 use crate::face::face_landmarks::FaceLandmarks;

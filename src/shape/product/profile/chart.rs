@@ -1,12 +1,12 @@
 //! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
+use super::curve::{smooth, smooth_lengths};
 use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::hand::size_at;
 use super::radius_map::Spot;
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
-use super::smooth::{smooth, smooth_lengths};
 use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;

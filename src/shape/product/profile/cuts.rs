@@ -1,9 +1,9 @@
 //! Measures a profile: some seventy cuts, each read around the bones.
 
 use super::chains::{Chain, Chains};
+use super::curve::{smooth, smooth_lengths};
 use super::hand::{DigitMap, HandBox, HandSizes};
 use super::map::on_bones;
-use super::smooth::{smooth, smooth_lengths};
 use super::station::{Slice, hits, slice_around};
 use super::{
     ARM_STATIONS, ArmProfile, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, SkirtProfile, TORSO_STATIONS,

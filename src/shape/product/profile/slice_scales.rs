@@ -1,9 +1,9 @@
 //! From a body's own profile to the wanted one: how each slice is scaled and where its middle goes.
 
-use super::canonical::BARE;
-use super::numbers::BothExtents;
-use super::slab::soft_scale;
-use super::{LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations};
+use super::wanted::BARE;
+use super::{
+    BothExtents, LEG_STATIONS, LegProfile, Profile, Row, STATIONS, TORSO_STATIONS, station_at, stations,
+};
 use crate::geometry::smoothstep;
 
 /// Soft limits of ln S: of slices and hands, and of feet.
@@ -333,9 +333,19 @@ fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Streng
     }
 }
 
+/// e^(A m tanh(ln(wanted / own) / m)): the scale from `own` to `wanted`, `strength` of the way, with a soft limit: none of a
+/// ratio is cut off, but of a ratio of 4 some 2.8 are left where m is 1.3. An infinite m is no limit.
+pub fn soft_scale(wanted: f64, own: f64, strength: f64, most: f64) -> f64 {
+    let log = (wanted / own).ln();
+    (strength * if most.is_finite() { most * (log / most).tanh() } else { log }).exp()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::canonical::canonical;
+    use super::super::wanted::canonical;
+    use super::*;
+
+    use super::super::wanted::canonical;
     use super::*;
 
     #[test]
@@ -375,5 +385,13 @@ mod tests {
         // From the middle on nothing is left out.
         assert_eq!(torso(&left).depth[MIDDLE..], torso(&dressed).depth[MIDDLE..]);
         assert_eq!(leg(&left).breadth[MIDDLE..], leg(&dressed).breadth[MIDDLE..]);
+    }
+
+    #[test]
+    fn a_ratio_of_two_is_nearly_met_and_one_of_four_is_not() {
+        assert!((soft_scale(2.0, 1.0, 1.0, 1.3) - 1.89).abs() < 5e-3);
+        assert!((soft_scale(4.0, 1.0, 1.0, 1.3) - 2.79).abs() < 5e-3);
+        assert_eq!(soft_scale(2.0, 1.0, 0.0, 1.3), 1.0);
+        assert!((soft_scale(4.0, 1.0, 1.0, f64::INFINITY) - 4.0).abs() < 1e-12);
     }
 }
