@@ -12,10 +12,11 @@ use glam::DVec3;
 
 /// The width of one step, as a share of H. D26.
 const STEP_WIDTH: f64 = 0.012;
-/// Where the surface is coarse a step is as wide as this part of the root of twice the area around a place: a little more than an edge,
-/// or what is further apart than a step would not be smoothed at all. D26. Seen: at 0 ankles of a low-poly figure stretch 4.6-fold in
-/// a run, at .44 3.3-fold, now 3.0-fold; at .66 three of 132 legs more are not as wide as a reference's.
-const COARSE: f64 = 0.5;
+/// Where the surface is coarse a step is as wide as the first of these parts of the root of twice the area around a place, most of an
+/// edge, and at most the second number of steps: or what is further apart would not be smoothed at all. D26. Seen: ankles of a low-poly
+/// figure stretch 3.0-fold in a run, at .30 3.4-fold, at .25 4.6-fold; without the second a crown of a dozen triangles is drawn to the
+/// neck by .005 H.
+const COARSE: (f64, f64) = (0.35, 2.0);
 /// The width of all of them together, in widths of one: wider turns fewer triangles over, and creases go. D26.
 const WIDTH: f64 = 2.6;
 /// Bounds of the number of steps: the more vertices there are, the less far one of them reaches. The upper one is for time. D26.
@@ -152,7 +153,7 @@ fn layer_steps(
         |(found, last), slot| {
             let sample = |slot: usize| &samples[tree.indices()[slot] as usize];
             let (p, own) = (tree.point(slot), sample(slot));
-            let sigma = sigma * (COARSE * f64::from(own.area).sqrt()).max(1.0);
+            let sigma = sigma * (COARSE.0 * f64::from(own.area).sqrt()).clamp(1.0, COARSE.1);
             let reach = LAYER_REACH * sigma;
             // Slots that follow each other are near each other: the neighbours of the last one bound the search.
             let bound = match (*last, found.get(LAYER_NEIGHBOURS - 1)) {

@@ -272,8 +272,6 @@ impl<const N: usize> Reading<'_, N> {
 mod tests {
     use super::*;
 
-    use super::*;
-
     #[test]
     fn a_straight_line_stays_and_carries_on() {
         let line: Row = std::array::from_fn(|at| 1.0 + 0.1 * at as f64);
@@ -316,8 +314,6 @@ mod tests {
             assert!(smooth(&wild.map(|y| y * huge)).is_none_or(|line| line.iter().all(|y| y.is_finite())));
         }
     }
-
-    use super::*;
 
     #[test]
     fn wide_bells_take_means_apart_and_places_may_fall() {

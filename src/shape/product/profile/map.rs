@@ -517,8 +517,6 @@ pub fn slab(place: f64, scale: f64, half: f64) -> Slab {
 mod tests {
     use super::*;
 
-    use super::*;
-
     #[test]
     fn the_surface_is_scaled_and_what_lies_on_it_moves_along() {
         // Worked by hand from the formula, to its last digits.

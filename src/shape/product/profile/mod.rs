@@ -285,9 +285,6 @@ mod tests {
     use super::wanted::canonical;
     use super::*;
 
-    use super::super::wanted::canonical;
-    use super::*;
-
     #[test]
     fn half_of_two_profiles_is_between_them() {
         let (small, tall) = (canonical(2.2), canonical(4.5));

@@ -345,9 +345,6 @@ mod tests {
     use super::super::wanted::canonical;
     use super::*;
 
-    use super::super::wanted::canonical;
-    use super::*;
-
     #[test]
     fn shorts_and_a_tunic_are_left_out_unless_who_takes_them_wears_such() {
         let bare = canonical(3.4);

@@ -204,8 +204,6 @@ pub fn canonical_strength(heads: f64) -> f64 {
 mod tests {
     use super::*;
 
-    use super::*;
-
     #[test]
     fn known_bodies_are_met_and_between_them_all_is_between_and_below_them_smaller() {
         let bottom = |heads: f64| canonical(heads).torso.unwrap().breadth[0];
