@@ -74,8 +74,9 @@ struct ArmMap {
     bone_scale: f64,
     /// What is done to each finger before all else, thumb first.
     digits: [Option<DigitMap>; 5],
-    /// What is done to the hand in place of what is done to the arm.
+    /// What is done to the hand in place of what is done to the arm, from this place along it on.
     hand: Option<HandMap>,
+    hand_from: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -226,7 +227,7 @@ impl BodyMap {
             return on_arm();
         };
         let fade = FADE * hand.length();
-        let (share, slope) = smoothstep_slope((arm.planes.locate(p).0 - arm.length) / fade + 1.0);
+        let (share, slope) = smoothstep_slope((arm.planes.locate(p).0 - arm.hand_from) / fade + 1.0);
         mix(share, arm.planes.axis * (slope / fade), on_arm, || hand.map(p))
     }
 
@@ -260,7 +261,10 @@ impl BodyMap {
         let elbow = planes.locate(frame.limbs[side].middle);
         let bone_scale = scales.arm_length;
         let digits = frame.closed_digits(side, scales.mitt);
-        let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand: None };
+        // No later than its thumb: the joint of some hands lies in the palm.
+        let hand_from = frame.digits[side][0].map_or(length, |[root, _]| planes.locate(root).0.min(length));
+        let hand = None;
+        let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand, hand_from };
         arm.hand = lines.hands[side].map(|hand| {
             let to = arm.map(hand.planes.origin, false);
             HandMap { hand, scale: DVec3::new(long, thin, broad), share: scales.mitt, to }
