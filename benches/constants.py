@@ -391,6 +391,8 @@ class Bench:
         short = lambda pair: f"{pair[0].name} {pathlib.Path(pair[1]).name}"
         if refused:
             row["refused"] = sorted(set(refused))
+        if not any(what for _, what in found):
+            return row
         changed = {pair[0].name for pair, what in found if what["apart"] > 1e-5}
         row["targets"] = len(changed)
         worst = max(found, key=lambda item: item[1]["apart"])

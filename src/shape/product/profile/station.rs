@@ -1,5 +1,6 @@
 //! One slice of a body: its middle, half breadth and half depth, whatever is worn over it.
 
+use super::radius_map::Ring;
 use crate::geometry::slice::{Outline, RAYS};
 use crate::geometry::{mean, median};
 use glam::DVec2;
@@ -20,6 +21,8 @@ const BESIDE: usize = 2;
 const FEWEST_HITS: usize = 3;
 /// The rays to the sides.
 const SIDES: [usize; 2] = [0, RAYS / 2];
+/// Those to front and back.
+const FACES: [usize; 2] = [RAYS / 4, 3 * RAYS / 4];
 /// Times that the middle is put between the extents.
 const CENTRINGS: usize = 2;
 
@@ -79,44 +82,42 @@ fn extents<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f
 }
 
 /// The surface of the body that `outlines` make, on each ray from `middle`; NaN where there is none.
-pub fn surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f64; RAYS] {
-    surface_within(outlines, middle, STANDS_OFF, true)
+pub fn surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> Ring {
+    surface_within(outlines, middle, STANDS_OFF)
 }
 
-/// The same with layers that stand off the body: a skirt's relief is its own. What does not go around does not count: at a hem
-/// that hangs lower in front there is no skirt behind, only legs.
-pub fn outer_surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> [f64; RAYS] {
-    surface_within(outlines, middle, f64::INFINITY, false)
+/// The same with layers that stand off the body: a skirt's relief is its own.
+pub fn outer_surface<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2) -> Ring {
+    surface_within(outlines, middle, f64::INFINITY)
 }
 
-/// The surface without what is further out than so many times the innermost layer.
-///
-/// - `fills`: where no layer is, what is nearest counts.
-fn surface_within<'a>(
-    outlines: impl Iterator<Item = &'a Outline>,
-    middle: DVec2,
-    stands_off: f64,
-    fills: bool,
-) -> [f64; RAYS] {
-    let reaches: Vec<[f64; RAYS]> = outlines.map(|outline| outline.reaches(middle)).collect();
-    let share = |reaches: &[f64; RAYS]| hits(*reaches).count() as f64 / RAYS as f64;
-    let (layers, mut open): (Vec<&[f64; RAYS]>, Vec<_>) =
+/// The surface without what is further out than so many times the innermost layer. Open outlines that go around together, as a
+/// trunk's front and back between its arms, are the surface where no layer is; at a hem that hangs lower in front there is no skirt
+/// behind, only legs.
+fn surface_within<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2, stands_off: f64) -> Ring {
+    let reaches: Vec<Ring> = outlines.map(|outline| outline.reaches(middle)).collect();
+    let share = |reaches: &Ring| hits(*reaches).count() as f64 / RAYS as f64;
+    let (layers, mut open): (Vec<&Ring>, Vec<_>) =
         reaches.iter().partition(|reaches| share(reaches) >= GOES_AROUND);
-    let mut layers: Vec<(f64, &[f64; RAYS])> =
+    let mut layers: Vec<(f64, &Ring)> =
         layers.into_iter().map(|layer| (median(&mut hits(*layer).collect::<Vec<_>>()), layer)).collect();
     let biggest = layers.iter().map(|layer| layer.0).fold(0.0, f64::max);
     layers.retain(|layer| layer.0 >= HIDDEN * biggest);
-    open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
-    std::array::from_fn(|ray| {
-        let hits = layers.iter().map(|layer| layer.1[ray]);
-        // NaN is neither greater nor less than any hit.
+    // NaN is neither greater nor less than any hit.
+    let outermost = |hits: &mut dyn Iterator<Item = f64>| {
         let (nearest, furthest) =
             hits.fold((f64::NAN, f64::NAN), |(low, high), hit| (low.min(hit), high.max(hit)));
-        if nearest.is_nan() && fills {
-            return reaches.iter().map(|outline| outline[ray]).fold(f64::NAN, f64::min);
-        }
+        furthest.min(stands_off * nearest)
+    };
+    if layers.is_empty() {
+        let open: Ring = std::array::from_fn(|ray| outermost(&mut open.iter().map(|outline| outline[ray])));
+        let goes_around = share(&open) >= GOES_AROUND && FACES.iter().all(|&ray| !open[ray].is_nan());
+        return if goes_around { open } else { [f64::NAN; RAYS] };
+    }
+    open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
+    std::array::from_fn(|ray| {
         // NaN where no layer is: no open outline lies on that.
-        let reach = furthest.min(stands_off * nearest);
+        let reach = outermost(&mut layers.iter().map(|layer| layer.1[ray]));
         open.iter().map(|outline| outline[ray]).filter(|&hit| hit <= STANDS_OFF * reach).fold(reach, f64::max)
     })
 }
