@@ -381,6 +381,34 @@ fn fingers_of_a_hand_that_becomes_a_mitt_lie_beside_each_other_and_the_thumb_in_
 }
 
 #[test]
+fn a_thumb_that_begins_before_its_hands_joint_is_a_bump_on_the_mitt() {
+    let target = "quaternius_knight.glb";
+    if !at_hand() || model(target).is_none() {
+        return;
+    }
+    let run = Run::new(target, "style", &style_of(REFERENCE, &Options::default()), &Options::default());
+    let thumb = |role: Role| format!("{role:?}").starts_with("LeftThumb");
+    // How far below the hand's middle the thumb reaches, in half thicknesses of the hand.
+    let hangs = |figure: &Figure| {
+        let heights = |of_thumb: bool| {
+            let counts = |vertex: &usize| {
+                figure.weight_of(*vertex, |role| Part::of(role) == Part::LeftHand) > 0.5
+                    && (figure.weight_of(*vertex, thumb) > 0.5) == of_thumb
+            };
+            let of = (0..figure.positions.len()).filter(counts).map(|vertex| figure.positions[vertex].y);
+            of.fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(y), high.max(y)])
+        };
+        let ([low, high], [lowest, _]) = (heights(false), heights(true));
+        (0.5 * (low + high) - lowest) / (0.5 * (high - low))
+    };
+    let (before, after) = (hangs(run.before()), hangs(&run.after()));
+    assert!(before > 2.0, "the thumb does not hang: {before}");
+    // Half extents n become n sqrt(2 / (1 + n^2)): less than the root of 2 of them, wherever a thumb begins; of their box, of which
+    // the hand's own vertices leave a fifth.
+    assert!(after < 2.0f64.sqrt() / 0.8, "{before} before, {after} after");
+}
+
+#[test]
 fn a_share_of_the_profile_is_between_none_and_all() {
     if !at_hand() {
         return;

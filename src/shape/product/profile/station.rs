@@ -183,6 +183,26 @@ mod tests {
     }
 
     #[test]
+    fn front_and_back_between_the_arms_go_around_together_and_a_front_alone_does_not() {
+        let part = |half: DVec2, from: f64, to: f64| ellipse(DVec2::ZERO, half, from, to);
+        let trunk = [part(BODY, 30.0, 150.0), part(BODY, 210.0, 330.0)];
+        let reaches = outer_surface(trunk.iter(), DVec2::ZERO);
+        assert!((reaches[RAYS / 4] - BODY.y).abs() < 1e-3 && (reaches[3 * RAYS / 4] - BODY.y).abs() < 1e-3);
+        assert!(reaches[0].is_nan() && reaches[RAYS / 2].is_nan());
+        // Half of each leg, between which the front and the back of a skirt are open.
+        let legs = [part(BODY, 110.0, 250.0), part(BODY, -70.0, 70.0)];
+        for open in [&trunk[..1], &legs] {
+            assert!(outer_surface(open.iter(), DVec2::ZERO).iter().all(|reach| reach.is_nan()));
+        }
+        // What is worn over it is what is seen from outside, and as far as it lies on for the body.
+        let [trunk, coat] =
+            [1.0, 2.0].map(|by| [part(by * BODY, 30.0, 150.0), part(by * BODY, 210.0, 330.0)]);
+        let both = || trunk.iter().chain(&coat);
+        assert!((outer_surface(both(), DVec2::ZERO)[RAYS / 4] - 2.0 * BODY.y).abs() < 1e-3);
+        assert!((surface(both(), DVec2::ZERO)[RAYS / 4] - STANDS_OFF * BODY.y).abs() < 1e-3);
+    }
+
+    #[test]
     fn half_a_body_is_none() {
         assert_eq!(around(&[ellipse(DVec2::ZERO, BODY, 0.0, 180.0)]), None);
         assert_eq!(around(&[]), None);
