@@ -160,8 +160,6 @@ const ASIDE: std::ops::Range<f64> = 0.03..0.42;
 const PIECE_WIDTH: std::ops::Range<f64> = 0.02..0.42;
 /// What is flatter than this part of its width is a brow or a lash.
 const PIECE_FLATTEST: f64 = 0.33;
-/// What is higher than this, in head lengths, is no eye.
-const PIECE_HEIGHT: f64 = 0.5;
 /// Squares of a look at an opening, in head lengths: with the front view's own, b is a row off.
 const FINE: f64 = 0.002;
 /// The share of an opening at each end that is left out, against single squares.
@@ -176,8 +174,8 @@ fn by_pieces(head: &Head) -> Option<Eyes> {
         let pieces = pieces(head, &triangles, if side == 0 { 1.0 } else { -1.0 }, false);
         let fits = |piece: &&Piece| {
             let (extent, aside) = (piece.extent(), piece.middle().x.abs());
-            let heights = PIECE_FLATTEST * extent.x..PIECE_HEIGHT;
-            ASIDE.contains(&aside) && PIECE_WIDTH.contains(&extent.x) && heights.contains(&extent.y)
+            let is_flat = extent.y < PIECE_FLATTEST * extent.x;
+            ASIDE.contains(&aside) && PIECE_WIDTH.contains(&extent.x) && !is_flat
         };
         let area = |piece: &Piece| piece.extent().x * piece.extent().y;
         let largest = pieces.iter().filter(fits).max_by(|a, b| area(a).total_cmp(&area(b)))?;
@@ -369,8 +367,6 @@ const TWIN_MOST: f64 = 0.4;
 const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
 /// See [`TWIN_WIDTH`].
 const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
-/// Of a mirrored piece's box at least this share is seen from the front.
-const TWIN_SEEN: f64 = 0.5;
 
 /// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.
 fn are_plausible(eyes: &Eyes) -> bool {
@@ -393,10 +389,6 @@ fn by_mirrored(head: &Head) -> Option<Eyes> {
             && TWIN_ASIDE.contains(&middle.x.abs())
             && TWIN_HEIGHT.contains(&middle.y)
     };
-    let seen = |eye: &Eye, piece: &Piece| {
-        let extent = piece.extent();
-        4.0 * eye.half_width() * eye.half_height() > TWIN_SEEN * extent.x * extent.y
-    };
     [false, true].into_iter().find_map(|sewn| {
         let [left, right] = [1.0, -1.0].map(|side| {
             let mut pieces = pieces(head, &head.bare, side, sewn);
@@ -410,8 +402,7 @@ fn by_mirrored(head: &Head) -> Option<Eyes> {
             if off.length() > MIRRORED || grown.abs().max_element() > MIRRORED {
                 return None;
             }
-            let eye = |piece| eye(head, piece).filter(|eye| seen(eye, piece));
-            Some([eye(left)?, eye(right)?]).filter(are_plausible)
+            Some([eye(head, left)?, eye(head, right)?]).filter(are_plausible)
         });
         let area = |[left, _]: &Eyes| left.half_width() * left.half_height();
         eyes.reduce(|best, next| if area(&next) > area(&best) { next } else { best })

@@ -131,14 +131,11 @@ impl FaceLandmarks {
     }
 }
 
-/// How far beside its middle an opening is looked at for hair, in half widths.
-const COVERED_WIDTH: f64 = 1.2;
-
 /// What share of the openings hair covers, seen from the front; of the one that it covers less.
 fn covered(head: &Head, eyes: &Eyes) -> f64 {
     let with_hair = head.with_hair();
     let of = |eye: &Eye| {
-        let half = DVec2::new(COVERED_WIDTH * eye.half_width(), eye.half_height());
+        let half = DVec2::new(eye.half_width(), eye.half_height());
         let (low, high) = (eye.middle().truncate() - half, eye.middle().truncate() + half);
         let window = Window { low, high, step: 0.2 * half.min_element() };
         let view = DepthMap::new(&head.points, &with_hair, window);
@@ -163,14 +160,12 @@ pub fn height_and_distance(pair: Option<Pair>) -> (f64, f64) {
 const NOSE_RANGE: (f64, f64) = (0.45, 0.80);
 /// The face beside the nose is taken this far aside, in half distances of the eyes.
 const BESIDE_NOSE: f64 = 0.62;
-/// Of a nose's heights the foremost counts by this much of what it stands out by.
-const NOSE_FOREMOST: f64 = 0.3;
 /// What stands out less, in head lengths, is no nose.
 const NOSE_LEAST: f64 = 0.02;
 /// Columns about the middle in which the nose is looked for.
 const NOSE_STRIP: f64 = 0.025;
-/// A nose is as wide as what stands out by more than this share of the tip; at least so many head lengths to each side.
-const NOSE_WIDTH: (f64, f64) = (0.3, 0.025);
+/// A nose is as wide as what stands out by more than this share of the tip.
+const NOSE_WIDTH: f64 = 0.3;
 /// Its base is where less than this share of the tip stands out, and at most this far below it.
 const NOSE_BASE: (f64, f64) = (0.2, 0.09);
 
@@ -197,7 +192,7 @@ fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
         let y = view.middle(0, row).y;
         y > NOSE_RANGE.0 * ye && y < NOSE_RANGE.1 * ye
     };
-    let score = |row: usize| out(row).map(|(z, side)| (z - side + NOSE_FOREMOST * z, row));
+    let score = |row: usize| out(row).map(|(z, side)| (z - side, row));
     let scores = (0..view.rows()).filter(|&row| in_range(row)).filter_map(score);
     let (_, mut row) = scores.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
     // From there to the local tip.
@@ -214,7 +209,7 @@ fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
         return None;
     }
     let y = view.middle(0, row).y;
-    let half_width = view.reach(row, NOSE_WIDTH.1, |z| z - side_z > NOSE_WIDTH.0 * protrusion);
+    let half_width = view.reach(row, |z| z - side_z > NOSE_WIDTH * protrusion);
     let mut base = y;
     while base > y - NOSE_BASE.1
         && view.row(base) > 0
@@ -232,7 +227,7 @@ const FACE_DEPTH: f64 = 0.16;
 fn half_width_at(head: &Head, ye: f64, d: f64) -> f64 {
     let skin = [-d, d].into_iter().filter_map(|x| head.front.depth_at(DVec2::new(x, ye)));
     let front = skin.fold(f64::NEG_INFINITY, f64::max);
-    head.front.reach(head.front.row(ye), 0.0, |z| z > front - FACE_DEPTH)
+    head.front.reach(head.front.row(ye), |z| z > front - FACE_DEPTH)
 }
 
 /// Heights at which a skull is measured: above the ears, below the crown.

@@ -4,7 +4,7 @@ use super::dual::step;
 use super::head::{Head, quantile};
 use super::raster::{DepthMap, Window};
 use crate::geometry::Bounds;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 /// An iris on a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +25,6 @@ const DARK: f64 = 0.55;
 const DARKEST: (f64, f64) = (0.03, 0.90);
 /// A ball whose lights and darks differ less has no iris that is seen.
 const CONTRAST: f64 = 0.15;
-/// Shares of a ball's front that an iris may take.
-const SHARE: (f64, f64) = (0.02, 0.55);
 /// An iris lies within this cosine of its middle.
 const NEAR: f64 = 0.8;
 /// Rings about its middle in which the share of dark is looked at, in radians.
@@ -56,10 +54,6 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
     let limit = darkest + DARK * (lightest - darkest);
     let dark: Vec<DVec3> =
         seen.iter().filter(|&&(_, shade)| shade < limit).map(|&(towards, _)| towards).collect();
-    let share = dark.len() as f64 / seen.len() as f64;
-    if share < SHARE.0 || share > SHARE.1 {
-        return None;
-    }
     let mut towards = dark.iter().sum::<DVec3>().normalize_or_zero();
     for _ in 0..5 {
         let near = dark.iter().filter(|direction| direction.dot(towards) > NEAR);
@@ -77,7 +71,7 @@ pub fn iris(head: &Head, vertices: &[u32], (low, high): Bounds) -> Option<Iris> 
     Some(Iris { towards, angle: edge as f64 * RING })
 }
 
-/// How an iris grows and where it looks.
+/// How an iris grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IrisFlow {
     /// The ball's middle and half extents, before.
@@ -88,8 +82,6 @@ pub struct IrisFlow {
     pub iris: Iris,
     /// How many times as large it becomes, at least 1.
     pub growth: f64,
-    /// By how much the ball turns outwards, in radians, towards +x where above 0.
-    pub yaw: f64,
 }
 
 /// Nothing of a ball changes further from the iris's middle than this chord, three quarters of the way to its side.
@@ -108,6 +100,6 @@ impl IrisFlow {
         let even = 2.0 * (0.5 * self.iris.angle).sin();
         let fades = 1.0 - step((chord.length() - even) / (UNTOUCHED - even));
         let grown = (from / radius + fades * youth * (self.growth - 1.0) * chord).normalize();
-        self.middle + radius * self.half * (DQuat::from_rotation_y(youth * self.yaw) * grown)
+        self.middle + radius * self.half * grown
     }
 }

@@ -89,8 +89,6 @@ fn outwards(head: &Head) -> f64 {
 const SPHERE: (f64, usize) = (0.1, 9);
 /// The radius of that sphere, in the ball's widths.
 const SPHERE_RADIUS: std::ops::Range<f64> = 0.4..0.8;
-/// A ball stands out by at least this part of its width.
-const STANDS_OUT: f64 = 0.2;
 
 /// True for a cap of a sphere that bulges to the front.
 pub fn is_ball(head: &Head, piece: &Piece) -> bool {
@@ -98,7 +96,7 @@ pub fn is_ball(head: &Head, piece: &Piece) -> bool {
     let firsts = weld(&points, head.parts.seam / head.frame.length).first_vertices();
     let points: Vec<DVec3> = firsts.iter().map(|&first| points[first as usize]).collect();
     let (extent, middle) = (piece.extent(), piece.middle().truncate());
-    if points.len() < SPHERE.1 || extent.z < STANDS_OUT * extent.x {
+    if points.len() < SPHERE.1 {
         return false;
     }
     let Some((centre, radius)) = sphere(&points, middle) else { return false };

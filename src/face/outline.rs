@@ -19,9 +19,8 @@ const LEVEL: f64 = 0.01;
 const LEVELS: (f64, f64) = (-0.0618, 1.0);
 /// The front is read so far aside: beside the nose.
 const BESIDE_NOSE: (f64, f64) = (0.06, 0.11);
-/// The back is read within the first, and no further behind what is so far aside than the third number: there a tail
-/// or a bun begins.
-const BACK: (f64, f64, f64) = (0.09, 0.20, 0.15);
+/// The back is read so far aside, to both sides.
+const BACK: f64 = 0.09;
 /// The chest and the trunk's back are read below the shoulder line, so far.
 const TRUNK: (f64, f64) = (-0.305, -0.025);
 /// Between these heights the chin is where it is foremost.
@@ -87,11 +86,7 @@ impl Outline {
         let front = |y: f64| if y < HEIGHTS[DEEPEST] { &bare } else { &hair };
         let near = |y: f64| (y - 0.5 * LEVEL, y + 0.5 * LEVEL);
         let front_at = |y: f64| front(y).most(near(y), Of::Front);
-        let back_at = |y: f64| {
-            let middle = hair.most(near(y), Of::Behind)?;
-            let beside = hair.most(near(y), Of::BehindAside).unwrap_or(middle);
-            Some(middle.min(beside + BACK.2))
-        };
+        let back_at = |y: f64| hair.most(near(y), Of::Behind);
         let y = HEIGHTS[DEEPEST];
         let (deepest_front, deepest_back) = (front_at(y)?, back_at(y)?);
         let middle = rounded(0.5 * (deepest_front - deepest_back));
@@ -140,12 +135,11 @@ enum Of {
     Front,
     Before,
     Behind,
-    BehindAside,
 }
 
 /// How far aside depths are looked at, and whether for the greatest (1) or the least (-1).
-const BANDS: [(f64, f64, f64); 4] =
-    [(BESIDE_NOSE.0, BESIDE_NOSE.1, 1.0), (0.0, BACK.0, 1.0), (0.0, BACK.0, -1.0), (BACK.0, BACK.1, -1.0)];
+const BANDS: [(f64, f64, f64); 3] =
+    [(BESIDE_NOSE.0, BESIDE_NOSE.1, 1.0), (0.0, BACK, 1.0), (0.0, BACK, -1.0)];
 
 impl Levels {
     fn new((low, high): (f64, f64)) -> Self {
@@ -197,8 +191,8 @@ fn furthest(corners: [DVec3; 3]) -> Level {
         let meets = meets(least.x, most.x) || meets(-most.x, -least.x);
         if meets { (sign * least.z).max(sign * most.z) } else { f64::NEG_INFINITY }
     };
-    let [front, before, behind, aside] = BANDS.map(beside);
-    [most.x.max(-least.x), front, before, behind, aside]
+    let [front, before, behind] = BANDS.map(beside);
+    [most.x.max(-least.x), front, before, behind]
 }
 
 /// Adds the line from `a` to `b`.

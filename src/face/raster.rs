@@ -129,10 +129,10 @@ impl DepthMap {
         (triangle != NOTHING).then_some(triangle as usize)
     }
 
-    /// How far from x = 0 `row` shows a depth that `counts` accepts; at least `least`.
-    pub fn reach(&self, row: usize, least: f64, counts: impl Fn(f64) -> bool) -> f64 {
+    /// How far from x = 0 `row` shows a depth that `counts` accepts; 0 where it shows none.
+    pub fn reach(&self, row: usize, counts: impl Fn(f64) -> bool) -> f64 {
         let seen = (0..self.columns).filter(|&column| self.depth(column, row).is_some_and(&counts));
-        seen.map(|column| self.middle(column, row).x.abs()).fold(least, f64::max)
+        seen.map(|column| self.middle(column, row).x.abs()).fold(0.0, f64::max)
     }
 
     /// The depth that the square around `p` shows, where it lies in the window.

@@ -38,15 +38,13 @@ pub struct FaceAim {
 
 /// Eyes of a figurine (KayKit's): what a style without eyes of its own aims at.
 const AIM_SIZE: f64 = 0.067;
-/// A reference's eyes are no larger than this for others (godette's .084 leave a realistic face no cheeks), and no
-/// smaller (a toddler's .039 are no child's of a drawing; .055 left two of four adults grown up).
-const AIM_SIZES: (f64, f64) = (0.06, 0.08);
-/// Eye heights that artists draw at 2.5 heads, for each head more, and bounds.
+/// A reference's eyes are no smaller than this for others (a toddler's .039 are no child's of a drawing; .055 left two of four
+/// adults grown up).
+const LEAST_AIM_SIZE: f64 = 0.06;
+/// Eye heights that artists draw at 2.5 heads, and for each head more.
 const AIM_HEIGHT: f64 = 0.40;
 /// See [`AIM_HEIGHT`].
 const AIM_HEIGHT_PER_HEAD: f64 = 0.025;
-/// See [`AIM_HEIGHT`].
-const AIM_HEIGHTS: (f64, f64) = (0.37, 0.46);
 /// A reference's head is no narrower than this for others (a toddler's .41 is no child's of a drawing), and no wider
 /// (KayKit's, with its hair, has .54).
 const AIM_SKULLS: (f64, f64) = (0.44, 0.52);
@@ -60,11 +58,8 @@ impl FaceAim {
     /// these are known.
     pub fn new(heads: f64, eyes: Option<(f64, f64)>, head_half_width: Option<f64>) -> Self {
         let (eye_size, eye_height) = match eyes {
-            Some((size, height)) => (size.clamp(AIM_SIZES.0, AIM_SIZES.1), height),
-            None => {
-                let height = AIM_HEIGHT + AIM_HEIGHT_PER_HEAD * (heads - 2.5);
-                (AIM_SIZE, height.clamp(AIM_HEIGHTS.0, AIM_HEIGHTS.1))
-            }
+            Some((size, height)) => (size.max(LEAST_AIM_SIZE), height),
+            None => (AIM_SIZE, AIM_HEIGHT + AIM_HEIGHT_PER_HEAD * (heads - 2.5)),
         };
         let skull_half_width =
             head_half_width.map_or(CHILD_SKULL, |half| half.clamp(AIM_SKULLS.0, AIM_SKULLS.1));
@@ -76,8 +71,8 @@ impl FaceAim {
 const ADULT_EYES: (f64, f64) = (0.048, 0.060);
 /// How adult a head without eyes is taken to be.
 const ADULT_WITHOUT_EYES: f64 = 0.6;
-/// Without eyes, what stands out by more than the first number and is narrower than the second is a nose.
-const NOSE: (f64, f64) = (0.09, 0.1);
+/// Without eyes, what stands out by more than this is a nose.
+const NOSE: f64 = 0.09;
 
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
@@ -121,28 +116,23 @@ const OCCIPUT: (f64, f64) = (0.22, 0.14);
 /// back of a head becomes longer.
 const OCCIPUT_REACH: (f64, f64) = (0.04, 0.80);
 
-/// Eyes sink by at most this.
-const MOST_SINKING: f64 = 0.07;
 /// Eyes grow by at most this: the first behind lids, whose folds and shades grow with them; else the second.
 const MOST_GROWTH: (f64, f64) = (1.40, 1.65);
 /// The bridge of the nose keeps this part of its width.
 const BRIDGE: f64 = 0.9;
 /// A ball that shows more than this part of itself has no lids.
 const BARE: f64 = 0.7;
-/// Lids open to this part of the opening's width, and of the ball, and by at most this more: larger for an iris, for wide
-/// lids about a small one stare.
-const LIDS_OPEN: (f64, f64) = (0.50, 0.60);
+/// Lids about an iris open to this part of the opening's width, and by at most this more.
+const LIDS_OPEN: f64 = 0.50;
 /// See [`LIDS_OPEN`].
-const LIDS_MORE: (f64, f64) = (0.2, 0.8);
-/// What grows with an eye: so many half openings aside and up, at least this part of the ball up, and at least so deep.
-const PLATEAU: (f64, f64, f64, f64) = (1.12, 1.5, 0.55, 0.06);
+const LIDS_MORE: f64 = 0.8;
+/// What grows with an eye: so many half openings aside and up, and at least this part of the ball up.
+const PLATEAU: [f64; 3] = [1.12, 1.5, 0.55];
 /// The part of an eye's reach that moves as one.
 const PLATEAU_OF_EYE: f64 = 0.5;
 /// A socket's shade reaches so many times as far as what grows with the eye; the skin below it is so many of that further down;
 /// below a painted brow it is whole from this on.
 const SOCKET: [f64; 3] = [1.6, 1.2, 0.05];
-/// What does not turn grows in depth by this part of what it grows across: all of it bulges like goggles.
-const FLAT_DEPTH: f64 = 0.25;
 /// The face curves back like a parabola of this radius.
 const FACE_CURVE: f64 = 0.9;
 /// The part of its growth in depth that a turning ball does behind its front.
@@ -153,10 +143,6 @@ const MOST_OVAL: f64 = 0.15;
 const IRIS_FILLS: f64 = 1.12;
 /// Larger, the rest of the ball's front would be pressed into too little of it.
 const MOST_IRIS: f64 = 1.6;
-/// An iris's middle lies this part of the opening's half width inwards.
-const GAZE: f64 = 0.06;
-/// Eyes turn outwards by at most 8 degrees: irises of adults look inwards, and large ones look cross-eyed then.
-const MOST_YAW: f64 = 0.14;
 
 /// How far above the upper lids the band is about which brows move as one, how far aside it reaches in half distances of the
 /// eyes, and how far up: adults have theirs .03 to .11 above the lids. Both are one band, as brows that rise in their middles
@@ -164,22 +150,22 @@ const MOST_YAW: f64 = 0.14;
 const BROWS: [f64; 3] = [0.075, 4.0, 0.20];
 /// The part of its reach that moves as one.
 const PLATEAU_OF_BROW: f64 = 0.4;
-/// Painted brows frown by what their outer ends are higher than their inner ones, beyond the first number: that is bent back, at
-/// most the second. Level ones look worried.
-const FROWN: (f64, f64) = (0.012, 0.06);
+/// Painted brows frown by what their outer ends are higher than their inner ones, beyond this: that is bent back. Level ones look
+/// worried.
+const FROWN: f64 = 0.012;
 /// Brows move apart by this part of what eyes do, by the logarithm, and grow as much: by all of it they are heavy.
 const BROWS_APART: f64 = 0.5;
 
 /// No row that shrinks leaves less than this part of a volume together with the rows before it: what is painted there would be
 /// pressed.
 const LEAST_VOLUME: f64 = 0.30;
-/// The nose's reach: aside in half widths and half distances of the eyes, down and up of what lies there, at least,
-/// behind in what it stands out by and head lengths.
-const NOSE_REACH: [f64; 6] = [1.9, 0.85, 0.085, 0.92, 1.5, 0.08];
+/// The nose's reach: aside in half widths and half distances of the eyes, up of what lies there, behind in what it stands out by
+/// and head lengths.
+const NOSE_REACH: [f64; 5] = [1.9, 0.85, 0.92, 1.5, 0.08];
 /// What the nose loses of its width, height and depth.
 const NOSE_LESS: [f64; 3] = [0.28, 0.26, 0.50];
-/// The mouth's middle, in heights of the nose's base, and how far behind the face's front.
-const MOUTH: (f64, f64) = (0.55, 0.02);
+/// The mouth's middle, in heights of the nose's base.
+const MOUTH: f64 = 0.55;
 /// Its reach.
 const MOUTH_REACH: [f64; 3] = [0.25, 0.12, 0.30];
 /// What it loses of its width and height.
@@ -258,7 +244,7 @@ impl Rows {
         let pair = face.pair();
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {
-            let sinks = q * features.lower * (pair.height - aim.eye_height).clamp(0.0, MOST_SINKING);
+            let sinks = q * features.lower * (pair.height - aim.eye_height).max(0.0);
             let reach = Kernel::level(pair.height, pair.height - ENDS.0, ENDS.1 - pair.height);
             rest.push(Kernel { shift: -sinks * DVec3::Y, plateau: SINKS_AS_ONE, ..reach });
         }
@@ -267,7 +253,7 @@ impl Rows {
         }
         if let Some(nose) = &face.nose {
             // Of a head without eyes a nose may be the roundness of its front.
-            let is_nose = pair.is_some() || nose.protrusion() > NOSE.0 && nose.half_width < NOSE.1;
+            let is_nose = pair.is_some() || nose.protrusion() > NOSE;
             let k = q * f64::from(is_nose);
             add_nose(&mut rest, nose, pair, features.nose * k);
             add_mouth(&mut rest, nose, front(face), features.jaw * k, smile);
@@ -410,17 +396,17 @@ fn add_nose(rows: &mut Vec<Kernel>, nose: &Nose, pair: Option<Pair>, k: f64) {
     let (ye, d) = height_and_distance(pair);
     let out = nose.protrusion();
     let wide = (NOSE_REACH[0] * nose.half_width).min(NOSE_REACH[1] * d);
-    let down = (nose.tip.y - nose.base + 0.05).max(NOSE_REACH[2]);
-    let up = NOSE_REACH[3] * (ye - nose.tip.y).max(0.08);
+    let down = nose.tip.y - nose.base + 0.05;
+    let up = NOSE_REACH[2] * (ye - nose.tip.y).max(0.08);
     let centre = DVec3::new(nose.tip.x, nose.tip.y + 0.012, nose.side_z + 0.2 * out);
-    let reach = DVec3::new(wide, 1.0, NOSE_REACH[4] * out + NOSE_REACH[5]);
+    let reach = DVec3::new(wide, 1.0, NOSE_REACH[3] * out + NOSE_REACH[4]);
     let rates = DVec3::from(NOSE_LESS.map(|share| less(k * share)));
     let row = Kernel { rates, plateau: SOFT, ..Kernel::about(centre, reach).between(down, up) };
     rows.push(drifting(row, rows));
 }
 
 fn add_mouth(rows: &mut Vec<Kernel>, nose: &Nose, front: f64, k: f64, smile: f64) {
-    let centre = DVec3::new(0.0, MOUTH.0 * nose.base, front - MOUTH.1);
+    let centre = DVec3::new(0.0, MOUTH * nose.base, front);
     let rates = DVec3::new(less(k * MOUTH_LESS[0]), less(k * MOUTH_LESS[1]), 0.0);
     let mouth = Kernel { rates, plateau: SOFT, ..Kernel::about(centre, MOUTH_REACH.into()) };
     let shift = DVec3::Y * (k * CORNER_RISES.0 + smile * CORNER_RISES.1);
@@ -482,7 +468,8 @@ impl Growth {
                 let most = DVec3::splat(1.0 + MOST_OVAL);
                 s * (DVec3::splat(extent.x) / extent).clamp(most.recip(), most).lerp(DVec3::ONE, 1.0 - k)
             }
-            None => DVec3::new(s, s, 1.0 + FLAT_DEPTH * (s - 1.0)),
+            // In depth too it would bulge like goggles.
+            None => DVec3::new(s, s, 1.0),
         };
         let from = match ball {
             Some(ball) if ball.turns => ball.centre,
@@ -500,9 +487,9 @@ impl Growth {
             to.y += (scale.y - 1.0) * (from.y - opening.y);
             to.z -= FRONT_STAYS * (scale.z - 1.0) * (opening.z - from.z);
         }
-        let rx = (PLATEAU.0 * a).max(radius.min(0.70 * d2 / s)).min(0.78 * d);
-        let ry = (PLATEAU.1 * b).max(PLATEAU.2 * radius).min(1.25 * rx);
-        let reach = DVec3::new(rx, ry, radius.max(PLATEAU.3)) / PLATEAU_OF_EYE;
+        let rx = (PLATEAU[0] * a).max(radius.min(0.70 * d2 / s)).min(0.78 * d);
+        let ry = (PLATEAU[1] * b).max(PLATEAU[2] * radius).min(1.25 * rx);
+        let reach = DVec3::new(rx, ry, radius) / PLATEAU_OF_EYE;
         let row = Kernel {
             drift: to - from,
             rates: (scale * DVec3::new(1.0, opens, 1.0)).to_array().map(f64::ln).into(),
@@ -511,31 +498,28 @@ impl Growth {
             holds: true,
             ..Kernel::about(from, reach)
         };
-        let iris = self.iris(eye, side, opens);
+        let iris = self.iris(eye, opens);
         (row, Ball { from, to, rates: scale.to_array().map(f64::ln).into(), iris })
     }
 
     /// How much more than the eye grows its lids open.
     fn opens(&self, eye: &Eye) -> f64 {
-        let (a, b, radius) = (self.pair.half_width, self.pair.half_height, eye.radius());
-        let is_ball = eye.ball.as_ref().is_some_and(|ball| ball.is_ball());
-        if is_ball && b > BARE * radius {
-            return 1.0;
+        let Pair { half_width: a, half_height: b, .. } = self.pair;
+        // Wide lids about no iris, or a small one, stare.
+        match eye.ball.as_ref().filter(|ball| ball.iris.is_some()) {
+            Some(ball) if !ball.is_ball() || b <= BARE * eye.radius() => {
+                (LIDS_OPEN * a / b).clamp(1.0, 1.0 + self.k * LIDS_MORE)
+            }
+            _ => 1.0,
         }
-        let has_iris = eye.ball.as_ref().is_some_and(|ball| ball.iris.is_some());
-        let most = 1.0 + self.k * if has_iris { LIDS_MORE.1 } else { LIDS_MORE.0 };
-        let on_ball = if is_ball { LIDS_OPEN.1 * radius / b } else { f64::INFINITY };
-        (LIDS_OPEN.0 * a / b).min(on_ball).clamp(1.0, most)
     }
 
-    fn iris(&self, eye: &Eye, side: f64, opens: f64) -> Option<IrisFlow> {
+    fn iris(&self, eye: &Eye, opens: f64) -> Option<IrisFlow> {
         let ball = eye.ball.as_ref()?;
         let (iris, half, middle) = (ball.iris?, 0.5 * (ball.high - ball.low), 0.5 * (ball.high + ball.low));
         let fills = IRIS_FILLS * self.pair.half_height * opens / (half.y * iris.angle.sin());
         let growth = 1.0 + self.k * (fills.clamp(1.0, MOST_IRIS) - 1.0);
-        let off = side * (middle.x + half.x * iris.towards.x - eye.middle().x);
-        let turn = ((-GAZE * self.pair.half_width - off) / half.x).clamp(-0.3, 0.3).asin();
-        Some(IrisFlow { middle, half, iris, growth, yaw: side * self.k * turn.clamp(0.0, MOST_YAW) })
+        Some(IrisFlow { middle, half, iris, growth })
     }
 
     /// Both brows as one piece: they rise with the upper lids and move apart as the eyes do; painted ones that frown bend.
@@ -546,7 +530,7 @@ impl Growth {
         let carried = DVec3::from(velocity(rest, centre.to_array()));
         let bend = self.k
             * brows.map_or(0.0, |Brows { inner, outer }| {
-                let frown = (outer.y - inner.y - FROWN.0).clamp(0.0, FROWN.1);
+                let frown = (outer.y - inner.y - FROWN).max(0.0);
                 -frown / (outer.x * outer.x - inner.x * inner.x)
             });
         // Of both lids, as a head is never quite symmetric; what is above the eyes' middles keeps its height over them.

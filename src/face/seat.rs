@@ -11,9 +11,7 @@ use glam::{DMat3, DVec3};
 const CHIN_BEFORE: f64 = 0.10;
 /// See [`CHIN_BEFORE`].
 const SKULL_BEHIND: f64 = 0.42;
-/// A head goes back by at most this.
-const MOST_BACK: f64 = 0.14;
-/// And by at most this part of the height that it leans back over: the steepest of that is twice as steep, so a
+/// A head goes back by at most this part of the height that it leans back over: the steepest of that is twice as steep, so a
 /// short neck leans by no more than 27 degrees.
 const MOST_LEAN: f64 = 0.25;
 /// All of the head above this goes back as far: higher, the chin stays behind and stands out before the lips.
@@ -30,7 +28,7 @@ impl Seat {
     /// How the head of `outline` goes back over the trunk; `None` where it sits well.
     pub fn new(outline: &Outline) -> Option<Self> {
         let &Outline { frame, shoulder_line, .. } = outline;
-        let most = MOST_BACK.min(MOST_LEAN * (WHOLE - shoulder_line).max(0.0));
+        let most = MOST_LEAN * (WHOLE - shoulder_line).max(0.0);
         let back = (outline.overhang - CHIN_BEFORE).min(SKULL_BEHIND - outline.behind).clamp(0.0, most);
         let row = Kernel::level(WHOLE, WHOLE - shoulder_line, f64::INFINITY);
         (back > 0.0).then_some(Self { frame, row: [Kernel { shift: -back * DVec3::Z, ..row }] })

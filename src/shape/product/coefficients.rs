@@ -32,9 +32,6 @@ const NECK_GROWTH: f64 = 1.5;
 /// No limb may become shorter than this share of itself: less is a stub that nothing bends in. D27. Seen: acts on the legs of
 /// six of seven adults made like the KayKit rogue, whose legs are .15 to .22 of theirs.
 const SHORTEST_LIMB: f64 = 0.22;
-/// The leg above the ankle is at least this share of the whole leg: for ankle joints near the hip, of which none was
-/// seen.
-const SHORTEST_SHANK: f64 = 0.05;
 /// The foot may take at least this share of the new leg's height. D27. Seen: acts on 5 of 14 with KayKit; without it
 /// feet get up to .034 H smaller.
 const ROOM_FOR_FOOT: f64 = 0.35;
@@ -241,8 +238,7 @@ pub fn part_coefficients(
 fn short_limbs(target: &Proportions, reference: &Proportions) -> PartCoefficients {
     let above = |of: &Proportions| of.head_length + of.neck + of.torso;
     let unit = above(target) / above(reference);
-    let shank = (target.leg - target.ankle_height).max(SHORTEST_SHANK * target.leg);
-    let leg = (unit * reference.leg - target.ankle_height) / shank;
+    let leg = (unit * reference.leg - target.ankle_height) / (target.leg - target.ankle_height);
     let limb = |length: f64| Scale { length: length.clamp(SHORTEST_LIMB, 1.0), thickness: 1.0 };
     let (arm, leg) = (limb(unit * reference.arm / target.arm), limb(leg));
     PartCoefficients {
@@ -375,7 +371,7 @@ impl<'a> Solver<'a> {
     /// smaller first.
     fn solve_legs(&mut self, leg: f64) {
         let (target, bounds, scales) = (self.target, &mut self.bounds, &mut self.scales);
-        let shank = (target.leg - target.ankle_height).max(SHORTEST_SHANK * target.leg);
+        let shank = target.leg - target.ankle_height;
         if target.ankle_height > 0.0 {
             let room = (leg - SHORTEST_LIMB * shank).max(ROOM_FOR_FOOT * leg);
             scales.foot = bounds.apply("foot", scales.foot, 0.0, room / target.ankle_height);

@@ -75,8 +75,7 @@ struct ArmMap {
     /// What is done to each finger before all else, thumb first.
     digits: [Option<DigitMap>; 5],
     /// What is done to the hand in place of what is done to the arm, from this place along it on.
-    hand: Option<HandMap>,
-    hand_from: f64,
+    hand: Option<(f64, HandMap)>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -223,11 +222,12 @@ impl BodyMap {
     /// Before the wrist what a hand moves goes over to the arm's map, as soft weights reach far.
     fn hand_or_arm<M: Moved>(&self, side: usize, p: DVec3) -> M {
         let on_arm = || self.arm_or_torso(side, p);
-        let Some((arm, hand)) = self.arms[side].as_ref().and_then(|arm| Some((arm, arm.hand?))) else {
+        let Some((arm, (from, hand))) = self.arms[side].as_ref().and_then(|arm| Some((arm, arm.hand?)))
+        else {
             return on_arm();
         };
         let fade = FADE * hand.length();
-        let (share, slope) = smoothstep_slope((arm.planes.locate(p).0 - arm.hand_from) / fade + 1.0);
+        let (share, slope) = smoothstep_slope((arm.planes.locate(p).0 - from) / fade + 1.0);
         mix(share, arm.planes.axis * (slope / fade), on_arm, || hand.map(p))
     }
 
@@ -261,13 +261,12 @@ impl BodyMap {
         let elbow = planes.locate(frame.limbs[side].middle);
         let bone_scale = scales.arm_length;
         let digits = frame.closed_digits(side, scales.mitt);
-        // No later than its thumb: the joint of some hands lies in the palm.
-        let hand_from = frame.digits[side][0].map_or(length, |[root, _]| planes.locate(root).0.min(length));
-        let hand = None;
-        let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand, hand_from };
+        let mut arm = ArmMap { planes, base, length, table, elbow, bone_scale, digits, hand: None };
         arm.hand = lines.hands[side].map(|hand| {
             let to = arm.map(hand.planes.origin, false);
-            HandMap { hand, scale: DVec3::new(long, thin, broad), share: scales.mitt, to }
+            // No later than its thumb: the joint of some hands lies in the palm.
+            let from = frame.digits[side][0].map_or(length, |[root, _]| planes.locate(root).0.min(length));
+            (from, HandMap { hand, scale: DVec3::new(long, thin, broad), share: scales.mitt, to })
         });
         Some(arm)
     }

@@ -21,8 +21,6 @@ const BESIDE: usize = 2;
 const FEWEST_HITS: usize = 3;
 /// The rays to the sides.
 const SIDES: [usize; 2] = [0, RAYS / 2];
-/// Those to front and back.
-const FACES: [usize; 2] = [RAYS / 4, 3 * RAYS / 4];
 /// Times that the middle is put between the extents.
 const CENTRINGS: usize = 2;
 
@@ -111,8 +109,8 @@ fn surface_within<'a>(outlines: impl Iterator<Item = &'a Outline>, middle: DVec2
     };
     if layers.is_empty() {
         let open: Ring = std::array::from_fn(|ray| outermost(&mut open.iter().map(|outline| outline[ray])));
-        let goes_around = share(&open) >= GOES_AROUND && FACES.iter().all(|&ray| !open[ray].is_nan());
-        return if goes_around { open } else { [f64::NAN; RAYS] };
+        let around = share(&open) >= GOES_AROUND && SIDES.iter().all(|&side| !open[side + RAYS / 4].is_nan());
+        return if around { open } else { [f64::NAN; RAYS] };
     }
     open.retain(|outline| share(outline) >= LIES_ON && SIDES.iter().any(|&side| !outline[side].is_nan()));
     std::array::from_fn(|ray| {
