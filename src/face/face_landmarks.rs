@@ -209,7 +209,7 @@ fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
         return None;
     }
     let y = view.middle(0, row).y;
-    let half_width = view.reach(row, |z| z - side_z > NOSE_WIDTH * protrusion);
+    let half_width = view.reach(row, |z| z - side_z > NOSE_WIDTH * protrusion).max(STEP);
     let mut base = y;
     while base > y - NOSE_BASE.1
         && view.row(base) > 0
