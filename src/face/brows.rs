@@ -23,6 +23,8 @@ const COLUMNS: (f64, f64, f64) = (0.30, 1.50, 0.006);
 const ROWS: (f64, f64, f64) = (0.025, 0.16, 0.004);
 /// A brow is darker than its column's median by at least this part of that: of dark skin and of light.
 const CONTRAST: f64 = 0.18;
+/// Fewer columns with a brow are no brow.
+const LEAST_COLUMNS: usize = 6;
 /// Where the line's ends are, in half distances of the eyes.
 const ENDS: (f64, f64) = (0.5, 1.3);
 /// A column further from the line than two median errors and this is left out.
@@ -74,6 +76,9 @@ pub fn brows(head: &Head, pair: Pair) -> Option<Brows> {
 
 /// The line through (x, y), weighted: offset and slope.
 fn fit(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
+    if points.len() < LEAST_COLUMNS {
+        return None;
+    }
     let total: f64 = points.iter().map(|&(_, _, weight)| weight).sum();
     let mean = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
         points.iter().map(|&(x, y, weight)| weight * of(x, y)).sum::<f64>() / total

@@ -367,6 +367,8 @@ const TWIN_MOST: f64 = 0.4;
 const TWIN_ASIDE: std::ops::Range<f64> = 0.07..0.36;
 /// See [`TWIN_WIDTH`].
 const TWIN_HEIGHT: std::ops::Range<f64> = 0.2..0.62;
+/// Of a mirrored piece's box at least this share is seen from the front.
+const TWIN_SEEN: f64 = 0.5;
 
 /// Two eyes stand side by side in the middle third of a head: what does not is no pair of eyes.
 fn are_plausible(eyes: &Eyes) -> bool {
@@ -389,6 +391,10 @@ fn by_mirrored(head: &Head) -> Option<Eyes> {
             && TWIN_ASIDE.contains(&middle.x.abs())
             && TWIN_HEIGHT.contains(&middle.y)
     };
+    let seen = |eye: &Eye, piece: &Piece| {
+        let extent = piece.extent();
+        4.0 * eye.half_width() * eye.half_height() > TWIN_SEEN * extent.x * extent.y
+    };
     [false, true].into_iter().find_map(|sewn| {
         let [left, right] = [1.0, -1.0].map(|side| {
             let mut pieces = pieces(head, &head.bare, side, sewn);
@@ -402,7 +408,8 @@ fn by_mirrored(head: &Head) -> Option<Eyes> {
             if off.length() > MIRRORED || grown.abs().max_element() > MIRRORED {
                 return None;
             }
-            Some([eye(head, left)?, eye(head, right)?]).filter(are_plausible)
+            let eye = |piece| eye(head, piece).filter(|eye| seen(eye, piece));
+            Some([eye(left)?, eye(right)?]).filter(are_plausible)
         });
         let area = |[left, _]: &Eyes| left.half_width() * left.half_height();
         eyes.reduce(|best, next| if area(&next) > area(&best) { next } else { best })

@@ -164,8 +164,8 @@ const BESIDE_NOSE: f64 = 0.62;
 const NOSE_LEAST: f64 = 0.02;
 /// Columns about the middle in which the nose is looked for.
 const NOSE_STRIP: f64 = 0.025;
-/// A nose is as wide as what stands out by more than this share of the tip.
-const NOSE_WIDTH: f64 = 0.3;
+/// A nose is as wide as what stands out by more than this share of the tip; at least so many head lengths to each side.
+const NOSE_WIDTH: (f64, f64) = (0.3, 0.025);
 /// Its base is where less than this share of the tip stands out, and at most this far below it.
 const NOSE_BASE: (f64, f64) = (0.2, 0.09);
 
@@ -209,7 +209,7 @@ fn nose(head: &Head, ye: f64, d: f64) -> Option<Nose> {
         return None;
     }
     let y = view.middle(0, row).y;
-    let half_width = view.reach(row, |z| z - side_z > NOSE_WIDTH * protrusion).max(STEP);
+    let half_width = view.reach(row, |z| z - side_z > NOSE_WIDTH.0 * protrusion).max(NOSE_WIDTH.1);
     let mut base = y;
     while base > y - NOSE_BASE.1
         && view.row(base) > 0

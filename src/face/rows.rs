@@ -71,8 +71,8 @@ impl FaceAim {
 const ADULT_EYES: (f64, f64) = (0.048, 0.060);
 /// How adult a head without eyes is taken to be.
 const ADULT_WITHOUT_EYES: f64 = 0.6;
-/// Without eyes, what stands out by more than this is a nose.
-const NOSE: f64 = 0.09;
+/// Without eyes, what stands out by more than the first number and is narrower than the second is a nose.
+const NOSE: (f64, f64) = (0.09, 0.1);
 
 /// How adult a face is: 0, of eyes as large as they are drawn, to 1.
 pub fn adultness(face: &FaceLandmarks) -> f64 {
@@ -116,6 +116,8 @@ const OCCIPUT: (f64, f64) = (0.22, 0.14);
 /// back of a head becomes longer.
 const OCCIPUT_REACH: (f64, f64) = (0.04, 0.80);
 
+/// Eyes sink by at most this: like a reference whose eyes are at .30, nose and mouth would be pressed below them.
+const MOST_SINKING: f64 = 0.07;
 /// Eyes grow by at most this: the first behind lids, whose folds and shades grow with them; else the second.
 const MOST_GROWTH: (f64, f64) = (1.40, 1.65);
 /// The bridge of the nose keeps this part of its width.
@@ -150,9 +152,9 @@ const MOST_IRIS: f64 = 1.6;
 const BROWS: [f64; 3] = [0.075, 4.0, 0.20];
 /// The part of its reach that moves as one.
 const PLATEAU_OF_BROW: f64 = 0.4;
-/// Painted brows frown by what their outer ends are higher than their inner ones, beyond this: that is bent back. Level ones look
-/// worried.
-const FROWN: f64 = 0.012;
+/// Painted brows frown by what their outer ends are higher than their inner ones, beyond the first number: that is bent back, at
+/// most the second. Level ones look worried.
+const FROWN: (f64, f64) = (0.012, 0.06);
 /// Brows move apart by this part of what eyes do, by the logarithm, and grow as much: by all of it they are heavy.
 const BROWS_APART: f64 = 0.5;
 
@@ -244,7 +246,7 @@ impl Rows {
         let pair = face.pair();
         let mut rest: Vec<Kernel> = Vec::new();
         if let Some(pair) = pair {
-            let sinks = q * features.lower * (pair.height - aim.eye_height).max(0.0);
+            let sinks = q * features.lower * (pair.height - aim.eye_height).clamp(0.0, MOST_SINKING);
             let reach = Kernel::level(pair.height, pair.height - ENDS.0, ENDS.1 - pair.height);
             rest.push(Kernel { shift: -sinks * DVec3::Y, plateau: SINKS_AS_ONE, ..reach });
         }
@@ -253,7 +255,7 @@ impl Rows {
         }
         if let Some(nose) = &face.nose {
             // Of a head without eyes a nose may be the roundness of its front.
-            let is_nose = pair.is_some() || nose.protrusion() > NOSE;
+            let is_nose = pair.is_some() || nose.protrusion() > NOSE.0 && nose.half_width < NOSE.1;
             let k = q * f64::from(is_nose);
             add_nose(&mut rest, nose, pair, features.nose * k);
             add_mouth(&mut rest, nose, front(face), features.jaw * k, smile);
@@ -530,7 +532,7 @@ impl Growth {
         let carried = DVec3::from(velocity(rest, centre.to_array()));
         let bend = self.k
             * brows.map_or(0.0, |Brows { inner, outer }| {
-                let frown = (outer.y - inner.y - FROWN).max(0.0);
+                let frown = (outer.y - inner.y - FROWN.0).clamp(0.0, FROWN.1);
                 -frown / (outer.x * outer.x - inner.x * inner.x)
             });
         // Of both lids, as a head is never quite symmetric; what is above the eyes' middles keeps its height over them.
