@@ -215,7 +215,7 @@ impl YoungFace {
         }
         let known = known.filter(|known| known.rows == rows);
         // Eight at once, the last one again where they are fewer.
-        let ways = parallel::collect(threads, from.len().div_ceil(8), LEAST_WAYS / 8, |eight| {
+        let ways = parallel::collect(threads, from.len().div_ceil(8), parallel::FEW_RAYS, |eight| {
             let of: [usize; 8] = std::array::from_fn(|next| (8 * eight + next).min(from.len() - 1));
             if let Some(known) = known.filter(|known| of.iter().all(|&row| known.from[row] == from[row])) {
                 return of.map(|row| known.ways[row]);
@@ -233,9 +233,6 @@ impl YoungFace {
         Ways { rows, from, ways }
     }
 }
-
-/// Fewer ways than this are not worth a thread.
-const LEAST_WAYS: usize = 1000;
 
 /// As [`along`], from 0.
 fn along_f32(way: &[Vec3; STEPS], youth: f64) -> Vec3 {

@@ -15,12 +15,8 @@ use glam::{DMat3, DVec2, DVec3, Vec3, Vec3Swizzles, Vec4};
 /// fewer of 115 poses warned of.
 const CELL_COUNT: usize = 64;
 
-/// About so many cells are compared in the first sweep. Seen: ±30 % changes no direction.
-const SWEEP_CELL_COUNT: usize = 400;
-
-/// About so many cells are compared around the best plane of the first sweep. Seen: ±30 % turns directions by
-/// under half a degree.
-const FINE_CELL_COUNT: usize = 2500;
+/// About so many cells are compared with their mirror image. Seen: ±30 % changes no direction.
+const COMPARED: usize = 600;
 
 /// Degrees between the planes of the first sweep. Seen: ±30 % turns directions by under half a degree.
 const SWEEP_STEP: usize = 3;
@@ -58,9 +54,6 @@ const SURE_VOTE: f64 = 0.25;
 /// Votes that add up to less than this do not say which way is front. Seen: at -30 %, three fewer of 115 poses
 /// wrong by over 5 degrees.
 const LEAST_VOTE: f64 = 0.1;
-
-/// Points of the surface are no further apart than this share of a cell. Seen: ±30 % turns directions by under half a degree.
-const SAMPLE_STEP: f64 = 0.75;
 
 /// Points of the surface, about, at most: triangles are not taken apart further where there are many large ones. Seen:
 /// ±30 % turns directions by under half a degree.
@@ -202,7 +195,8 @@ impl Cells {
         for corners in triangles() {
             let [a, b, c] = corners.map(|corner| (corner - low) * scale + MARGIN);
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let steps = (longest / SAMPLE_STEP).ceil().clamp(1.0, most_steps) as usize;
+            // Points of the surface are no further apart than a cell.
+            let steps = longest.ceil().clamp(1.0, most_steps) as usize;
             if steps == 1 {
                 add((a + b + c) / 3.0);
                 continue;
@@ -282,7 +276,7 @@ impl Cells {
     /// The plane between left and right, whether it is clearly that one, and after it the second best one where that may be
     /// it as well; `axes` are ground directions along which files stand.
     fn mirrors(&self, axes: &[DVec2]) -> Vec<(Mirror, bool)> {
-        let step = self.points.len().div_ceil(SWEEP_CELL_COUNT).max(1);
+        let step = self.step();
         let sweep: Vec<Mirror> = (0..180)
             .step_by(SWEEP_STEP)
             .map(|degrees| {
@@ -299,7 +293,7 @@ impl Cells {
         let second = better_of(sweep.iter().copied().filter(is_apart));
         let best = self.refined(first, axes);
         let margin = first.score - second.score;
-        let likeness = self.likeness(best.normal, best.offset, self.fine_step());
+        let likeness = self.likeness(best.normal, best.offset, step);
         let sure = likeness >= LEAST_LIKENESS && margin >= LEAST_MARGIN;
         if sure && margin >= TRIED_MARGIN {
             return vec![(best, true)];
@@ -307,14 +301,14 @@ impl Cells {
         vec![(best, sure), (self.refined(second, axes), false)]
     }
 
-    /// Every so many cells are compared around a plane that is about right.
-    fn fine_step(&self) -> usize {
-        self.points.len().div_ceil(FINE_CELL_COUNT).max(1)
+    /// Every so many cells are compared.
+    fn step(&self) -> usize {
+        self.points.len().div_ceil(COMPARED).max(1)
     }
 
     /// The best plane near one.
     fn refined(&self, near: Mirror, axes: &[DVec2]) -> Mirror {
-        let step = self.fine_step();
+        let step = self.step();
         let mut best = self.scored(near.degrees, near.offset, step);
         // Planes turn about the middle.
         let ahead = |mirror: Mirror| mirror.offset - mirror.normal.dot(self.middle);

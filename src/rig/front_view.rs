@@ -10,8 +10,6 @@ use glam::DVec3;
 
 /// Rows of rays over the height of a figure. Seen: at +30 %, joints lie 0.0005 H further off.
 pub const ROWS: usize = 400;
-/// A silhouette with fewer columns on either side is widened to this. Seen: ±30 % changes no joint.
-const LEAST_HALF_COLUMNS: usize = 8;
 /// More columns on either side than this (4 heights) show nothing of a figure. A bound for memory.
 const MOST_HALF_COLUMNS: usize = 4 * ROWS;
 /// A set of meshes is whole where its feet and its head reach to within these distances of those of all meshes. Seen:
@@ -179,8 +177,7 @@ fn front(positions: &[DVec3], triangles: &[[u32; 3]], axis: f64, threads: usize)
         .filter(|reach| reach.is_finite())
         .fold(0.0, f64::max);
     // A sheet may be any number of times as wide as it is high.
-    let half =
-        ((reach / cell).ceil() as usize).saturating_add(2).clamp(LEAST_HALF_COLUMNS, MOST_HALF_COLUMNS);
+    let half = ((reach / cell).ceil() as usize).saturating_add(2).min(MOST_HALF_COLUMNS);
     let frame = GridFrame {
         origin: DVec3::X * (axis - half as f64 * cell),
         right: DVec3::X,

@@ -24,8 +24,6 @@ const AS_NARROW: f64 = 1.05;
 /// Of the rows as narrow as the narrowest one, those within this share of the way from shoulders to crown count; the
 /// neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
 const NECK_REACH: f64 = 0.15;
-/// How far forward the chin is, is read within this distance of the axis, in heights. Seen: ±30 % changes no joint.
-const CHIN_READ_WITHIN: f64 = 0.02;
 /// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights (D25).
 /// Seen: ±30 % moves joints by under 0.0005 H.
 const CHIN_WITHIN: (f64, f64) = (0.08, 0.03);
@@ -78,7 +76,7 @@ pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine 
     let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
     let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
-    let chin_z = view.depth(view.grid.row(chin), CHIN_READ_WITHIN).map_or(0.0, |(_, front)| front);
+    let chin_z = view.depth(view.grid.row(chin), CHIN_WITHIN.1).map_or(0.0, |(_, front)| front);
     HeadLine { neck, chin, chin_z, crown, neck_seen }
 }
 

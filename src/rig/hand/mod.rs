@@ -16,6 +16,10 @@ use region::{Finger, LEAST_PERSISTENCE, MITTEN_KNUCKLES, Region, SECTION_COUNT};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+/// A hand reaches no further from its wrist than this, in heights: .108 of people (Winter, table 4.1), twice that of stylised
+/// figures. Seen: ±30 % changes no finger.
+const REACH: f64 = 0.25;
+
 /// The fingers of one hand.
 #[derive(Clone, Debug, Default)]
 pub struct Hand {
@@ -90,8 +94,7 @@ impl Region {
         let tip = self.points[finger.tip as usize];
         let Some(way) = path.iter().rev().find_map(|&p| (tip - p).try_normalize()) else { return false };
         let beyond = tip + BEYOND_TIP * self.length * way;
-        let reach = RAY_REACH * self.wrist_radius;
-        surface.is_hit(beyond, way, self.length) && enclosed(surface, beyond, way, reach) >= 1.0
+        surface.is_hit(beyond, way, self.length) && enclosed(surface, beyond, way, self.length) >= 1.0
     }
 
     /// Fingers, which of them is the thumb, and joints (of the left hand).
@@ -134,7 +137,7 @@ impl Region {
                     0 => TRUSTED,
                     _ => SEEN,
                 };
-                let within = enclosed(surface, position, ways[number], RAY_REACH * self.wrist_radius);
+                let within = enclosed(surface, position, ways[number], self.length);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
             }
             hand.tips.insert(LEFT_FINGERS[role][2], tip);
@@ -192,10 +195,8 @@ impl Region {
     /// free finger; and whether the first is where these say.
     fn joints(&self, path: &[DVec3], shares: [f64; 3], thumb: bool) -> ([DVec3; 3], bool) {
         let tip = path[path.len() - 1];
-        // Straight on from the finger's lower half, with a bend towards the wrist, where all bones of the hand begin.
-        let straight = (path[path.len() / 2] - path[0]).normalize_or(self.along);
-        let from_wrist = (path[0] - self.wrist).normalize_or_zero();
-        let way = (straight + WRIST_BEND * from_wrist).normalize_or(straight);
+        // Inside of the palm, straight on from the finger's lower half.
+        let way = (path[path.len() / 2] - path[0]).normalize_or(self.along);
         let seen = path.windows(2).fold(0.0, |sum, pair| sum + pair[0].distance(pair[1]));
         // The first section is half a step from the web.
         let free = seen * (SECTION_COUNT as f64 / (SECTION_COUNT as f64 - 0.5));
@@ -250,13 +251,6 @@ const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
 /// A thumb's knuckle lies between these shares of the way from wrist to tip, however deep it is cut. Seen: ±30 % moves
 /// finger joints by under 0.0005 H.
 const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
-
-/// Rays around a joint reach this many radii of the wrist. Seen: ±30 % changes no finger.
-const RAY_REACH: f64 = 3.0;
-
-/// How much the way to the wrist counts beside the finger's own for what lies inside the palm. Seen: ±30 % moves finger
-/// joints by under 0.0005 H.
-const WRIST_BEND: f64 = 0.5;
 
 /// Just beyond a tip, as a share of the hand's length. Seen: ±30 % changes no finger.
 const BEYOND_TIP: f64 = 0.02;

@@ -1,5 +1,6 @@
 //! What a plane through the wrist cuts off.
 
+use super::REACH;
 use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -7,10 +8,6 @@ use std::f64::consts::TAU;
 
 /// Outlines below this share of the radius of one around the wrist are no arms. Seen: ±30 % changes no finger.
 const SLIVER: f64 = 0.3;
-
-/// Outlines whose middles are nearer than this share of the greater radius lie in each other: an arm in its sleeve, a
-/// ball in its socket. Seen: ±30 % moves finger joints by under 0.0005 H.
-const IN_EACH_OTHER: f64 = 0.7;
 
 /// What a plane through the wrist cuts.
 pub(super) struct Section {
@@ -39,15 +36,9 @@ impl Outline {
 }
 
 impl Section {
-    /// The section of the mesh across `along` that is nearest to `at`, within `reach`, with what it lies in or around:
-    /// an arm in its sleeve, a ball in its socket.
-    pub(super) fn new(
-        positions: &[DVec3],
-        triangles: &[[u32; 3]],
-        at: DVec3,
-        along: DVec3,
-        reach: f64,
-    ) -> Option<Self> {
+    /// The section of the mesh across `along` that is nearest to `at`, within a hand's reach, with what it lies in or around: an
+    /// arm in its sleeve, a ball in its socket.
+    pub(super) fn new(positions: &[DVec3], triangles: &[[u32; 3]], at: DVec3, along: DVec3) -> Option<Self> {
         let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
         // A triangle's part of the section.
         let part_of = |&corners: &[u32; 3]| {
@@ -59,7 +50,7 @@ impl Section {
                 let share = heights[lone] / (heights[lone] - heights[other]);
                 positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
             });
-            (ends[0].distance_squared(at) <= reach * reach).then_some((ends, corners))
+            (ends[0].distance_squared(at) <= REACH * REACH).then_some((ends, corners))
         };
         let (pieces, cut): (Vec<[DVec3; 2]>, Vec<[u32; 3]>) = triangles.iter().filter_map(part_of).unzip();
         // Ends of neighbours lie on one edge.
@@ -86,8 +77,7 @@ impl Section {
         outlines.retain(|_, outline| outline.length > 0.0 && outline.radius() >= SLIVER * around);
         let nearest = *outlines.values().min_by(|one, other| one.distance.total_cmp(&other.distance))?;
         outlines.retain(|_, outline| {
-            let apart = outline.centre().distance(nearest.centre());
-            apart < IN_EACH_OTHER * outline.radius().max(nearest.radius())
+            outline.centre().distance(nearest.centre()) < outline.radius().max(nearest.radius())
         });
         let radius = outlines.values().map(Outline::radius).fold(0.0, f64::max);
         let length: f64 = outlines.values().map(|outline| outline.length).sum();

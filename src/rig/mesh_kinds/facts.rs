@@ -1,5 +1,6 @@
 //! What surrounds the meshes: samples with a ray inwards and one outwards.
 
+use super::{MOST, SOME};
 use crate::error::Result;
 use crate::geometry::{Hit, Surface, bounds, double_area};
 use crate::parallel;
@@ -18,16 +19,9 @@ const SAME_SPOT: f64 = 1e-4;
 /// Seen: ±30 % changes no mesh.
 const LAYER_REACH: f64 = 0.12;
 
-/// A layer may be thick itself, like a lump of hair; then what it covers begins right behind it. In heights. Seen:
-/// ±30 % changes no mesh.
+/// A layer may be as thick itself, like a lump of hair; then what it covers begins right behind it, no further off than that. A
+/// sheet is thinner than a quarter of it. In heights. Seen: ±30 % changes no mesh.
 const LAYER_THICKNESS: f64 = 0.04;
-
-/// How far what lies below a thick layer may be behind it, and from where on a layer is thick, in heights. Seen: ±30 %
-/// changes no mesh.
-const LAYER_GAP: f64 = 0.02;
-
-/// A mesh of which this share lies over another one covers it. Seen: ±30 % changes no mesh.
-const COVER_SHARE: f64 = 0.15;
 
 /// What has less than this share of a mesh's area is a crumb beside it, which it does not lie over. Seen: at +30 %, one
 /// more mesh misjudged.
@@ -67,6 +61,11 @@ impl Facts {
 
     pub(super) fn middle(&self) -> DVec3 {
         self.samples.iter().map(|sample| sample.point).sum::<DVec3>() / self.samples.len().max(1) as f64
+    }
+
+    /// True of what has a far side of its own.
+    pub(super) fn is_closed(&self) -> bool {
+        self.share(|sample| sample.volume) >= MOST
     }
 
     pub(super) fn extent(&self) -> f64 {
@@ -134,10 +133,10 @@ impl Surroundings {
             let below = inwards.iter().find(|hit| mesh_of(hit) != mesh && enters(hit));
             let over = below.filter(|below| {
                 let thickness = far_side.map_or(f64::INFINITY, |hit| hit.t);
-                if below.t <= thickness || thickness <= LAYER_GAP / 2.0 {
+                if below.t <= thickness || thickness <= LAYER_THICKNESS / 4.0 {
                     below.t <= LAYER_REACH
                 } else {
-                    thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_GAP
+                    thickness <= LAYER_THICKNESS && below.t - thickness <= LAYER_THICKNESS
                 }
             });
             let over = over.map(mesh_of);
@@ -159,7 +158,7 @@ impl Scene<'_> {
     pub(super) fn enclosed_share(&self, mesh: usize) -> f64 {
         let (all, facts) = (&self.known.facts, &self.known.facts[mesh]);
         // What lies over this mesh does not enclose it: skin is below clothes, not inside them.
-        let lies_over = |around: &Facts| around.share(|sample| sample.over == Some(mesh)) >= COVER_SHARE;
+        let lies_over = |around: &Facts| around.share(|sample| sample.over == Some(mesh)) >= SOME;
         let encloses: Vec<bool> =
             all.iter().map(|around| around.area > facts.area && !lies_over(around)).collect();
         facts.share(|sample| sample.within.is_some_and(|around| encloses[around]))
