@@ -1,11 +1,11 @@
 //! The middle line: neck, chin and head above the shoulders, spine below them.
 
 use super::front_view::FrontView;
+use super::silhouette::lowest;
 use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step, median};
 
-/// Above its narrowest row the head is wider by this share, and by this share of the height. Seen: at -30 %, seven
-/// fewer good joints doubted; at +30 %, eight more good joints doubted.
-const HEAD_WIDENS: (f64, f64) = (1.15, 0.006);
+/// A neck is narrower than this share of what is below it and of what is above it.
+const NECK_NARROWS: f64 = 0.75;
 /// The chin's rays start and end at these shares of the way from shoulders to crown (D25). Seen: ±30 % moves joints by
 /// under 0.0005 H.
 const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
@@ -18,12 +18,6 @@ const MIDDLE_RANGE: (f64, f64) = (0.005, 0.08);
 /// A crown lies at least this far over the shoulders, in heights: nothing divides by less. Seen: ±30 % changes no
 /// joint.
 const LEAST_HEAD: f64 = 0.02;
-/// Rows no wider than this times the narrowest are as narrow. Seen: at -30 %, joints lie 0.0006 H further off, three
-/// fewer by over 0.06 H; at +30 %, five more joints off by over 0.06 H.
-const AS_NARROW: f64 = 1.05;
-/// Of the rows as narrow as the narrowest one, those within this share of the way from shoulders to crown count; the
-/// neck is in their middle. Seen: ±30 % moves joints by under 0.0005 H.
-const NECK_REACH: f64 = 0.15;
 /// The chin's rays run within this share of the face's width, but no further from the axis than that, in heights (D25).
 /// Seen: ±30 % moves joints by under 0.0005 H.
 const CHIN_WITHIN: (f64, f64) = (0.08, 0.03);
@@ -45,39 +39,28 @@ pub struct HeadLine {
     pub neck_seen: bool,
 }
 
-/// Looks for neck, chin and crown above `shoulder_line`, where the arms' radius is `radius`.
-pub fn head_line(view: &FrontView, shoulder_line: f64, radius: f64) -> HeadLine {
+/// Looks for neck, chin and crown above `shoulder_line`.
+pub fn head_line(view: &FrontView, shoulder_line: f64) -> HeadLine {
     let crown = view.high.max(shoulder_line + LEAST_HEAD);
     let span = crown - shoulder_line;
-    let (first, last) = (view.grid.row(shoulder_line), view.grid.row(crown));
-    // Upwards from the widest row at the shoulders: the narrowest row before the head.
-    let from = (view.grid.row(shoulder_line - radius)..=view.grid.row(shoulder_line + radius))
-        .max_by(|&a, &b| view.half_width(a).total_cmp(&view.half_width(b)))
-        .unwrap_or(first)
-        .max(first);
-    let shown = (from..last).map(|row| (view.half_width(row), row)).filter(|&(width, _)| width > 0.0);
-    let mut narrow = (f64::INFINITY, from);
-    let mut widened = false;
-    for (width, row) in shown.clone() {
-        if width < narrow.0 - 1e-9 {
-            narrow = (width, row);
-        } else if width > HEAD_WIDENS.0 * narrow.0 + HEAD_WIDENS.1 {
-            widened = true;
-            break;
-        }
-    }
-    // The middle of rows as narrow as that.
-    let within = (NECK_REACH * span / view.cell()) as usize;
-    let is_alike = |&(width, row): &(f64, usize)| {
-        width <= AS_NARROW * narrow.0 + 1e-9 && row.abs_diff(narrow.1) <= within
-    };
-    let mut alike = shown.filter(is_alike).map(|(_, row)| view.grid.y(row));
-    let narrow_y = alike.next().map_or(shoulder_line, |low| 0.5 * (low + alike.next_back().unwrap_or(low)));
-    let neck_seen = widened && narrow_y < shoulder_line + 0.5 * span;
-    let neck = if neck_seen { narrow_y } else { shoulder_line + 0.5 * CHIN_BY_RATIO * span };
+    let seen = neck(view, shoulder_line).filter(|&neck| neck < shoulder_line + 0.5 * span);
+    let neck = seen.unwrap_or(shoulder_line + 0.5 * CHIN_BY_RATIO * span);
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
     let chin_z = view.depth(view.grid.row(chin), CHIN_WITHIN.1).map_or(0.0, |(_, front)| front);
-    HeadLine { neck, chin, chin_z, crown, neck_seen }
+    HeadLine { neck, chin, chin_z, crown, neck_seen: seen.is_some() }
+}
+
+/// The narrowest place above height `from`, where there is one: the row that is slimmest beside what is below and above it.
+pub fn neck(view: &FrontView, from: f64) -> Option<f64> {
+    let first = view.grid.row(from);
+    let widths: Vec<f64> = (first..view.grid.row(view.high)).map(|row| view.half_width(row)).collect();
+    let most = |widths: &[f64]| widths.iter().copied().fold(0.0, f64::max);
+    let share =
+        |index: usize| widths[index] / most(&widths[..index]).min(most(&widths[index + 1..])).max(1e-6);
+    let slim = (0..widths.len()).filter(|&index| widths[index] > 0.0);
+    let shares: Vec<(f64, f64)> = slim.map(|index| (view.grid.y(first + index), share(index))).collect();
+    let is_slim = shares.iter().any(|&(_, share)| share < NECK_NARROWS);
+    lowest(&shares).filter(|_| is_slim)
 }
 
 /// The deepest step back of the front profile, downwards.

@@ -13,7 +13,7 @@ use super::arms::seen_by_rays;
 use super::candidates::{Candidates, likelihood};
 use super::front_view::{FrontView, image};
 use super::hand::pair::add_fingers;
-use super::head_line::{HeadLine, head_line, middle};
+use super::head_line::{HeadLine, head_line, middle, neck};
 use super::legs::{Leg, LegGap, LegLobes, Legs, find_legs, leg};
 use super::solid::branches::branches;
 use super::solid::{Solid, Voxels};
@@ -43,8 +43,6 @@ const SHOULDER_OF_REACH: f64 = 0.227;
 const NO_TRUNK: f64 = 0.42;
 /// A neck lies above this share of the way from crotch to crown; the waist is below.
 const NECK_ABOVE: f64 = 0.3;
-/// A neck is narrower than this share of what is below it and of what is above it.
-const NECK_NARROWS: f64 = 0.75;
 /// The trunk's core, from which branches start, begins at this share of the way from crotch to neck.
 const CORE_FROM: f64 = 0.1;
 /// The trunk's core ends at the neck or, where none is seen, at this share of the way from crotch to crown.
@@ -67,9 +65,6 @@ const LEGS_BELOW: f64 = 0.8;
 const LEGS: RangeInclusive<f64> = 0.38..=0.78;
 /// Beyond these shares hips and knees are doubted: between the two there, with room for stylised figures.
 const USUAL_LEGS: RangeInclusive<f64> = 0.42..=0.72;
-/// The arms' radius is taken to be no more than this, in heights, and this where no arm is seen. Seen: ±30 % changes no
-/// joint.
-const MOST_RADIUS: f64 = 0.02;
 /// Joints of the middle line are at least so far apart. Seen: ±30 % changes no joint.
 const APART: f64 = 2e-3;
 /// The neck joint lies at this share of the way from shoulder line to narrowest row. Seen: at +30 %, joints lie
@@ -234,12 +229,11 @@ impl Search<'_> {
         }
         self.put_legs(&legs, pair, odd);
 
-        let radius = arms.iter().flatten().map(|arm| arm.radius).fold(MOST_RADIUS, f64::min);
         let has_arms = arms.iter().all(Option::is_some);
         self.put_arms(&legs, arms, &solid.solid);
         self.settle_sides();
         let shoulder_line = 0.5 * (self.at(Role::LeftUpperArm).y + self.at(Role::RightUpperArm).y);
-        let line = head_line(view, shoulder_line, radius);
+        let line = head_line(view, shoulder_line);
         self.put_middle(&legs, &line, shoulder_line);
         self.settle_sides();
         // Two of legs, arms and a neck make a figure, and one that does not fall stands on its feet.
@@ -270,7 +264,7 @@ impl Search<'_> {
     /// What arms over `legs` are judged by.
     fn body<'s>(&self, legs: &Legs, solid: &'s Solid) -> Body<'s> {
         let given = [true, false].map(|left| self.given_of(ARM, left));
-        let neck = neck_height(self.view, legs.crotch);
+        let neck = neck(self.view, legs.crotch + NECK_ABOVE * (self.view.high - legs.crotch));
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 
@@ -521,17 +515,4 @@ impl Search<'_> {
             }
         }
     }
-}
-
-/// The narrowest place between trunk and head, where there is one: the row that is slimmest beside what is below and
-/// above it.
-fn neck_height(view: &FrontView, crotch: f64) -> Option<f64> {
-    let first = view.grid.row(crotch + NECK_ABOVE * (view.high - crotch));
-    let widths: Vec<f64> = (first..view.grid.row(view.high)).map(|row| view.half_width(row)).collect();
-    let most = |widths: &[f64]| widths.iter().copied().fold(0.0, f64::max);
-    let share =
-        |index: usize| widths[index] / most(&widths[..index]).min(most(&widths[index + 1..])).max(1e-6);
-    let slim = (0..widths.len()).filter(|&index| widths[index] > 0.0);
-    let slimmest = slim.min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
-    (share(slimmest) < NECK_NARROWS).then(|| view.grid.y(first + slimmest))
 }
