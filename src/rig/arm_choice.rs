@@ -21,12 +21,11 @@ const APART: f64 = 0.03;
 const UNEVEN: f64 = 0.15;
 /// An arm passes a joint that is given within this distance, in heights.
 const PASSES: f64 = 0.02;
-/// What each given joint costs at most that an arm passes by more than `PASSES`, and what each costs a side without an arm.
-const PASSES_BY: f64 = 20.0;
+/// What it costs an arm that cannot be: at most for each given joint that it passes by more than `PASSES`, as for each of a side
+/// without an arm, and where all of it lies in the air.
+const IMPOSSIBLE: f64 = 20.0;
 /// No one surprise counts for more than this.
 const MOST: f64 = 9.0;
-/// What an arm costs all of which lies in the air.
-const IN_AIR: f64 = 20.0;
 /// What a side without an arm costs.
 const NO_ARM: f64 = 14.0;
 /// Rays are finer than cells: what they see goes before what costs less by no more than this.
@@ -66,7 +65,7 @@ impl Body<'_> {
     pub fn candidate(&self, arm: Arm, left: bool, more: f64) -> Candidate {
         let given = self.given[usize::from(!left)];
         let passes = given.into_iter().flatten().map(|p| arm.curve.nearest(p).1 / PASSES);
-        let more = more + passes.map(|off| (off * off).min(PASSES_BY)).sum::<f64>();
+        let more = more + passes.map(|off| (off * off).min(IMPOSSIBLE)).sum::<f64>();
         let arm = arm.with_given(given);
         let height = (arm.shoulder.y - self.low).max(1e-3);
         let length = length(&arm).max(1e-3);
@@ -85,13 +84,13 @@ impl Body<'_> {
             .flat_map(|pair| (0..SAMPLES).map(|i| pair[0].lerp(pair[1], i as f64 / SAMPLES as f64)))
             .filter(|&p| !self.solid.is_in(p))
             .count();
-        cost += IN_AIR * outside as f64 / (2 * SAMPLES) as f64;
+        cost += IMPOSSIBLE * outside as f64 / (2 * SAMPLES) as f64;
         Candidate { arm, cost }
     }
 
     /// What is odd about a left and a right arm.
     pub fn cost(&self, pair: [Option<&Candidate>; 2]) -> f64 {
-        let none = |side: usize| NO_ARM + PASSES_BY * self.given[side].iter().flatten().count() as f64;
+        let none = |side: usize| NO_ARM + IMPOSSIBLE * self.given[side].iter().flatten().count() as f64;
         let own = |side: usize| pair[side].map_or_else(|| none(side), |one| one.cost);
         let mut cost = own(0) + own(1);
         if let [Some(left), Some(right)] = pair {

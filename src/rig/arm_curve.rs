@@ -25,9 +25,6 @@ const ELBOW_SHARE: f64 = 0.53;
 /// The elbow of an arm that is bent by more than this share of its length lies where the bend is. Seen: ±30 % moves
 /// joints by under 0.0005 H.
 const BENT: f64 = 0.05;
-/// Which sections tell the way the arm begins: the first one and the one after this fraction of all. Seen: ±30 %
-/// changes no joint.
-const ARM_BEGINNING: usize = 6;
 /// The sections of the radius near the shoulder: from one in so many to one in so many. Seen: ±30 % moves joints by
 /// under 0.0005 H.
 const RADIUS_RANGE: (usize, usize) = (10, 3);
@@ -148,9 +145,7 @@ impl ArmCurve {
         let Self { middles, arc, .. } = self;
         if wanted <= 0.0 {
             // Inside of the pit the arm goes on as it begins.
-            let next = (self.len() / ARM_BEGINNING).max(1);
-            let way = (middles[0] - middles[next]).normalize_or_zero();
-            return middles[0] + way * -wanted;
+            return middles[0] + (middles[0] - self.upper()).normalize_or_zero() * -wanted;
         }
         let index = arc.partition_point(|&a| a < wanted).clamp(1, arc.len() - 1);
         let share = (wanted - arc[index - 1]) / (arc[index] - arc[index - 1]).max(1e-12);

@@ -6,7 +6,8 @@ use super::silhouette::{GridFrame, RayGrid};
 use crate::geometry::median;
 use glam::{DVec2, DVec3};
 
-/// The line of an arm is that between these shares of its branch, from the shoulder on.
+/// The line of an arm is that between these shares of its branch, from the shoulder on: from the first one on it is clear of the
+/// trunk.
 const LINE_RANGE: (f64, f64) = (0.25, 0.9);
 /// An arm less of whose length than this shows from the front is held towards it or away from it.
 const SHOWS: f64 = 0.5;
@@ -15,9 +16,6 @@ const STATIONS: usize = 120;
 /// The shoulder joint lies so many arm radii over the middle of the arm, which hangs from it. Seen: ±30 % moves
 /// joints by under 0.0005 H.
 const SHOULDER_OVER: f64 = 0.2;
-/// Following starts at this share of the arm, where it is clear of the trunk. Seen: ±30 % moves joints by under
-/// 0.0005 H.
-const CLEAR: f64 = 0.25;
 /// A section this much wider than that `WITHIN` further out has trunk in it, for a sleeve widens more slowly, and one
 /// this much wider than all that is clear of the trunk.
 const TRUNK_WIDENS: f64 = 2.0;
@@ -59,7 +57,7 @@ pub fn seen_by_rays(view: &FrontView, branch: &Arm, left: bool) -> Option<Arm> {
     let origin = view.point(left, begin.x, begin.y, 0.0) - up * (0.5 * rows as f64 * cell);
     let frame = GridFrame { origin, right, up, cell, columns: STATIONS, rows };
     let grid = RayGrid::new(view.positions, &view.triangles, frame, view.threads);
-    let stations = stations(&grid, ((inside + CLEAR * length) / cell) as usize);
+    let stations = stations(&grid, ((inside + LINE_RANGE.0 * length) / cell) as usize);
     // The radius is read from the first third.
     let first = stations.first().filter(|_| stations.len() > 2)?;
     let below = DVec2::new(along.y, -along.x);
