@@ -362,6 +362,27 @@ fn ball(centre: DVec3, half: DVec3) -> Character {
 }
 
 #[test]
+fn a_knot_on_a_head_is_no_neck() {
+    let person = Person::adult();
+    let half = person.proportions.head_half_width;
+    let mut character = person.build();
+    let (_, bare) = found_of(&character, DVec3::Z);
+    // A ball of half the head's width, on a stalk of a tenth of it: slimmer beside both than the neck is.
+    let top = DVec3::Y * person.head_top();
+    let stalk = people::Shape::capsule(top, top + DVec3::Y * 0.4 * half, 0.1 * half);
+    let knot = ball(top + DVec3::Y * 0.8 * half, DVec3::splat(0.5 * half)).meshes;
+    let of_body = of_points(&stalk.positions, stalk.triangles).meshes.into_iter().chain(knot);
+    character.meshes.extend(of_body.map(|mesh| Mesh { kind: Some(MeshKind::Body), ..mesh }));
+    let (figure, found) = found_of(&character, DVec3::Z);
+    let warned =
+        |found: &FoundJoints| found.warnings.iter().any(|warning| warning.message.contains("no neck"));
+    assert!(!warned(&bare) && !warned(&found), "{:?}", found.warnings);
+    let neck = figure.to_model(found.joints[&Neck].position).y;
+    let (shoulders, chin) = (person.shoulder_line(), person.chin());
+    assert!((shoulders..chin).contains(&neck), "{neck} of {shoulders} to {chin}");
+}
+
+#[test]
 fn what_is_no_figure_is_doubted() {
     let triangle = of_points(&[DVec3::ZERO, DVec3::Y, DVec3::X], vec![[0, 1, 2]]);
     let plane =

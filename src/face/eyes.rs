@@ -298,15 +298,14 @@ fn by_blink(head: &Head) -> Option<Eyes> {
     Some([left?, right?]).filter(are_plausible)
 }
 
-/// Half width and height of an opening of which only the middle is told, by a joint or by the host, in half distances of the eyes:
-/// the mean of eight adult heads.
-const OPENING: [f64; 2] = [0.32, 0.18];
+/// Half width and height of an opening that only a joint tells of, in half distances of the eyes: an adult's.
+const OPENING_BY_JOINT: [f64; 2] = [0.45, 0.25];
 
 /// The eye joints; the skin before them is the opening's depth.
 fn by_joints(head: &Head) -> Option<Eyes> {
     let joints = [head.eye_joint(0)?, head.eye_joint(1)?];
     let d = 0.5 * (joints[0].x - joints[1].x);
-    let half = d * DVec2::from_array(OPENING);
+    let half = d * DVec2::from_array(OPENING_BY_JOINT);
     let [left, right] = joints.map(|joint| painted(head, joint.truncate(), half));
     Some([left?, right?]).filter(are_plausible)
 }
@@ -317,6 +316,9 @@ fn painted(head: &Head, middle: DVec2, half: DVec2) -> Option<Eye> {
     Some(Eye { low: (middle - half).extend(front), high: (middle + half).extend(front), ball: None })
 }
 
+/// Half width and height of an opening of which only the middle is said, in half distances of the eyes: the mean of eight
+/// adult heads.
+const OPENING_BY_HINT: [f64; 2] = [0.32, 0.18];
 /// A piece whose opening's middle is within this part of the eyes' half distance from where the host says an eye is, is
 /// that eye.
 const NEAR_HINT: f64 = 0.5;
@@ -341,7 +343,7 @@ fn by_hints(head: &Head) -> Option<Eyes> {
         let piece = pieces.as_ref().map(|eyes| &eyes[index]);
         let mut eye = match piece.filter(|eye| eye.middle().truncate().distance(middle) < NEAR_HINT * d) {
             Some(piece) => piece.clone(),
-            None => painted(head, middle, d * DVec2::from_array(OPENING))?,
+            None => painted(head, middle, d * DVec2::from_array(OPENING_BY_HINT))?,
         };
         for (axis, half) in half.to_array().into_iter().enumerate().filter(|&(_, half)| half > 0.0) {
             eye.low[axis] = middle[axis] - half;

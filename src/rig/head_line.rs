@@ -3,6 +3,7 @@
 use super::front_view::FrontView;
 use super::silhouette::lowest;
 use crate::geometry::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step, median};
+use std::ops::Range;
 
 /// A neck is narrower than this share of what is below it and of what is above it.
 const NECK_NARROWS: f64 = 0.75;
@@ -43,22 +44,24 @@ pub struct HeadLine {
 pub fn head_line(view: &FrontView, shoulder_line: f64) -> HeadLine {
     let crown = view.high.max(shoulder_line + LEAST_HEAD);
     let span = crown - shoulder_line;
-    let seen = neck(view, shoulder_line).filter(|&neck| neck < shoulder_line + 0.5 * span);
+    let seen = neck(view, shoulder_line..shoulder_line + 0.5 * span);
     let neck = seen.unwrap_or(shoulder_line + 0.5 * CHIN_BY_RATIO * span);
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
     let chin_z = view.depth(view.grid.row(chin), CHIN_WITHIN.1).map_or(0.0, |(_, front)| front);
     HeadLine { neck, chin, chin_z, crown, neck_seen: seen.is_some() }
 }
 
-/// The narrowest place above height `from`, where there is one: the row that is slimmest beside what is below and above it.
-pub fn neck(view: &FrontView, from: f64) -> Option<f64> {
-    let first = view.grid.row(from);
+/// The narrowest place between two heights, where there is one: the row that is slimmest beside what is below it from the first one
+/// on, and beside all that is above it. What is tied on a head is narrow too, but further up.
+pub fn neck(view: &FrontView, heights: Range<f64>) -> Option<f64> {
+    let first = view.grid.row(heights.start);
     let widths: Vec<f64> = (first..view.grid.row(view.high)).map(|row| view.half_width(row)).collect();
     let most = |widths: &[f64]| widths.iter().copied().fold(0.0, f64::max);
     let share =
         |index: usize| widths[index] / most(&widths[..index]).min(most(&widths[index + 1..])).max(1e-6);
-    let slim = (0..widths.len()).filter(|&index| widths[index] > 0.0);
-    let shares: Vec<(f64, f64)> = slim.map(|index| (view.grid.y(first + index), share(index))).collect();
+    let rows = (0..widths.len()).map(|index| (index, view.grid.y(first + index)));
+    let slim = rows.filter(|&(index, y)| widths[index] > 0.0 && y < heights.end);
+    let shares: Vec<(f64, f64)> = slim.map(|(index, y)| (y, share(index))).collect();
     let is_slim = shares.iter().any(|&(_, share)| share < NECK_NARROWS);
     lowest(&shares).filter(|_| is_slim)
 }

@@ -264,7 +264,8 @@ impl Search<'_> {
     /// What arms over `legs` are judged by.
     fn body<'s>(&self, legs: &Legs, solid: &'s Solid) -> Body<'s> {
         let given = [true, false].map(|left| self.given_of(ARM, left));
-        let neck = neck(self.view, legs.crotch + NECK_ABOVE * (self.view.high - legs.crotch));
+        let from = legs.crotch + NECK_ABOVE * (self.view.high - legs.crotch);
+        let neck = neck(self.view, from..self.view.high);
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 

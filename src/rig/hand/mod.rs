@@ -16,10 +16,6 @@ use region::{Finger, LEAST_PERSISTENCE, MITTEN_KNUCKLES, Region, SECTION_COUNT};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// A hand reaches no further from its wrist than this, in heights: .108 of people (Winter, table 4.1), twice that of stylised
-/// figures. Seen: ±30 % changes no finger.
-const REACH: f64 = 0.25;
-
 /// The fingers of one hand.
 #[derive(Clone, Debug, Default)]
 pub struct Hand {
@@ -94,7 +90,8 @@ impl Region {
         let tip = self.points[finger.tip as usize];
         let Some(way) = path.iter().rev().find_map(|&p| (tip - p).try_normalize()) else { return false };
         let beyond = tip + BEYOND_TIP * self.length * way;
-        surface.is_hit(beyond, way, self.length) && enclosed(surface, beyond, way, self.length) >= 1.0
+        let reach = RAY_REACH * self.wrist_radius;
+        surface.is_hit(beyond, way, self.length) && enclosed(surface, beyond, way, reach) >= 1.0
     }
 
     /// Fingers, which of them is the thumb, and joints (of the left hand).
@@ -137,7 +134,7 @@ impl Region {
                     0 => TRUSTED,
                     _ => SEEN,
                 };
-                let within = enclosed(surface, position, ways[number], self.length);
+                let within = enclosed(surface, position, ways[number], RAY_REACH * self.wrist_radius);
                 hand.joints.insert(role, FoundJoint { position, confidence: sure * seen * within });
             }
             hand.tips.insert(LEFT_FINGERS[role][2], tip);
@@ -251,6 +248,9 @@ const KNUCKLE_RANGE: [f64; 2] = [0.4, 0.66];
 /// A thumb's knuckle lies between these shares of the way from wrist to tip, however deep it is cut. Seen: ±30 % moves
 /// finger joints by under 0.0005 H.
 const THUMB_RANGE: [f64; 2] = [0.15, 0.5];
+
+/// Rays around a joint reach this many radii of the wrist. Seen: ±30 % changes no finger.
+const RAY_REACH: f64 = 3.0;
 
 /// Just beyond a tip, as a share of the hand's length. Seen: ±30 % changes no finger.
 const BEYOND_TIP: f64 = 0.02;

@@ -1,6 +1,6 @@
 //! The fingers of both hands: where they mirror each other, what one shows is true of both.
 
-use super::{Hand, REACH, find_fingers};
+use super::{Hand, find_fingers};
 use crate::character::Role;
 use crate::geometry::{PointTree, Surface, distinct};
 use crate::rig::front_view::{FrontView, image};
@@ -10,6 +10,9 @@ use glam::DVec3;
 
 /// Vertices this close to each other's mirror image are. Seen: ±30 % changes no joint.
 const SYMMETRIC_WITHIN: f64 = 2e-5;
+/// Two hands are alike where every vertex nearer to a wrist than this has a mirror image. Seen: ±30 % changes no joint.
+const HAND_REACH: f64 = 0.2;
+
 /// A hand with at least this many fingers but no thumb is looked at again.
 const FINGERS_BESIDE_THUMB: usize = 3;
 /// A hand without a thumb is looked at again from these shares of the forearm before its wrist, which may lie beyond the
@@ -65,7 +68,7 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
         corners
             .iter()
             .map(|&vertex| view.positions[vertex as usize])
-            .filter(|p| p.distance(wrist) < REACH)
+            .filter(|p| p.distance(wrist) < HAND_REACH)
             .collect()
     };
     let [left, right] = wrists.map(around);
@@ -75,7 +78,8 @@ fn mirror_of_hands(view: &FrontView, wrists: [DVec3; 2]) -> Option<f64> {
         let has_image = |&p: &DVec3| {
             tree.nearest(image(p, middle), 1, SYMMETRIC_WITHIN, &mut near);
             // Points at the rim may have an image just beyond it.
-            !near.is_empty() || p.distance(wrists[0]).min(p.distance(wrists[1])) > REACH - SYMMETRIC_WITHIN
+            !near.is_empty()
+                || p.distance(wrists[0]).min(p.distance(wrists[1])) > HAND_REACH - SYMMETRIC_WITHIN
         };
         !one.is_empty() && one.iter().all(has_image)
     };

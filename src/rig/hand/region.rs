@@ -1,6 +1,5 @@
 //! The mesh beyond the wrist, and the fingers that stand out of it: the merge tree of distances from the wrist.
 
-use super::REACH;
 use super::section::Section;
 use crate::geometry::{
     NONE, PointTree, SEAM, by_key, components, least_costs, marked, merge_tree, neighbours, weld,
@@ -39,6 +38,13 @@ pub(super) struct Finger {
 /// A tip stands out by this share of the hand's length, at least. Seen: at ±30 %, two fewer of 46 hands with all fingers.
 pub(super) const LEAST_PERSISTENCE: f64 = 0.1;
 
+/// A hand is looked for within this many lengths of the forearm. Seen: ±30 % changes no finger.
+const REACH: f64 = 1.5;
+
+/// A hand is looked for within no less and no more than this, in heights, whatever the forearm's length: sleeves hide
+/// elbows. Seen: ±30 % changes no finger.
+const REACH_RANGE: (f64, f64) = (0.12, 0.3);
+
 /// What ends within this share of that reach does not go on outside: it belongs to the hand. Seen: at -30 %, two fewer
 /// of 46 hands with all fingers.
 const ENDS_WITHIN: f64 = 0.95;
@@ -66,10 +72,12 @@ impl Region {
         wrist: DVec3,
     ) -> Option<Self> {
         let along = (wrist - elbow).try_normalize()?;
-        let section = Section::new(positions, triangles, wrist, along)?;
+        let forearm = wrist.distance(elbow);
+        let reach = (REACH * forearm).clamp(REACH_RANGE.0, REACH_RANGE.1);
+        let section = Section::new(positions, triangles, wrist, along, reach)?;
         let is_near = |p: DVec3| {
             // The section's middle lies in the plane through the wrist, which parts what is cut from what is not.
-            (p - wrist).dot(along) > 0.0 && p.distance_squared(section.centre) <= REACH * REACH
+            (p - wrist).dot(along) > 0.0 && p.distance_squared(section.centre) <= reach * reach
         };
         let mut index = vec![NONE; positions.len()];
         let mut points = Vec::new();
@@ -109,17 +117,17 @@ impl Region {
             along,
             wrist_radius: section.radius,
         };
-        region.bridge(&pieces);
+        region.bridge(&pieces, reach);
         region.distances = region.measured();
         region.length = region.distances.iter().copied().filter(|d| d.is_finite()).fold(0.0, f64::max);
         (region.length > 0.5 * region.wrist_radius).then_some(region)
     }
 
     /// Joins pieces that do not begin at the wrist to what does, each where it is nearest.
-    fn bridge(&mut self, pieces: &[u32]) {
+    fn bridge(&mut self, pieces: &[u32], reach: f64) {
         let members = by_key(pieces.iter().copied().zip(0u32..));
         let at = |vertex: u32| self.points[vertex as usize];
-        let ends = |&vertex: &u32| at(vertex).distance(self.wrist) < ENDS_WITHIN * REACH;
+        let ends = |&vertex: &u32| at(vertex).distance(self.wrist) < ENDS_WITHIN * reach;
         // Pieces that go on outside are something else: a leg, the ground.
         let mut waiting: Vec<Vec<u32>> = Vec::new();
         let mut joined: Vec<u32> = Vec::new();

@@ -1,6 +1,5 @@
 //! What a plane through the wrist cuts off.
 
-use super::REACH;
 use crate::geometry::{SEAM, components, weld};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -36,9 +35,15 @@ impl Outline {
 }
 
 impl Section {
-    /// The section of the mesh across `along` that is nearest to `at`, within a hand's reach, with what it lies in or around: an
-    /// arm in its sleeve, a ball in its socket.
-    pub(super) fn new(positions: &[DVec3], triangles: &[[u32; 3]], at: DVec3, along: DVec3) -> Option<Self> {
+    /// The section of the mesh across `along` that is nearest to `at`, within `reach`, with what it lies in or around:
+    /// an arm in its sleeve, a ball in its socket.
+    pub(super) fn new(
+        positions: &[DVec3],
+        triangles: &[[u32; 3]],
+        at: DVec3,
+        along: DVec3,
+        reach: f64,
+    ) -> Option<Self> {
         let height = |vertex: u32| (positions[vertex as usize] - at).dot(along);
         // A triangle's part of the section.
         let part_of = |&corners: &[u32; 3]| {
@@ -50,7 +55,7 @@ impl Section {
                 let share = heights[lone] / (heights[lone] - heights[other]);
                 positions[corners[lone] as usize].lerp(positions[corners[other] as usize], share)
             });
-            (ends[0].distance_squared(at) <= REACH * REACH).then_some((ends, corners))
+            (ends[0].distance_squared(at) <= reach * reach).then_some((ends, corners))
         };
         let (pieces, cut): (Vec<[DVec3; 2]>, Vec<[u32; 3]>) = triangles.iter().filter_map(part_of).unzip();
         // Ends of neighbours lie on one edge.

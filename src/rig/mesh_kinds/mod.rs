@@ -30,6 +30,14 @@ const SOME: f64 = 0.25;
 /// A mesh that makes a body whole adds at least as many slices. Seen: ±30 % changes no mesh.
 const LEAST_GAIN: usize = 3;
 
+/// What is no further from skin and clothes than this, in heights, is worn, closed as it may be: a belt, a coat with a lining. What
+/// sticks out further is a thing. Seen: ±30 % changes no mesh.
+const WORN: f64 = 0.03;
+
+/// A mesh that carries a limb is at least this long, in heights: a bracelet between sleeve and hand is none. Seen: ±30 % changes no
+/// mesh.
+const LIMB: f64 = 0.08;
+
 /// Parts of one body touch within this distance, in heights, and left and right mirror each other to within half of it.
 /// Seen: ±30 % changes no mesh.
 const PART_GAP: f64 = 0.04;
@@ -48,8 +56,19 @@ const LEAST_HEAD_SLICES: usize = 6;
 /// more meshes misjudged; at +30 %, one more mesh misjudged before joints are known.
 const SHOULDERS_WIDEN: f64 = 1.35;
 
+/// A head is at least this high: where its chin is read at its top, not everything there is hair. Seen: ±30 % changes no mesh.
+const LEAST_HEAD: f64 = 0.05;
+
+/// What lies within the head begins no further below its chin than this, in lengths of the head: teeth reach below the
+/// chin's height where that is the head joint's. Seen: ±30 % changes no mesh.
+const TEETH_BELOW: f64 = 0.25;
+
 /// A part of the face is no larger than this, in lengths of the head. Seen: at -30 %, two more meshes misjudged.
 const MOST_FACE_PART: f64 = 0.8;
+
+/// A head that is a mesh of its own lies above the chin on at least this share of itself. Seen: at +30 %, one
+/// more mesh misjudged.
+const HEAD_ABOVE: f64 = 0.8;
 
 /// Such a head, or hair, is or reaches this high, in lengths of the head. Seen: ±30 % changes no mesh.
 const HALF_A_HEAD: f64 = 0.5;
@@ -221,7 +240,7 @@ impl Scene<'_> {
         let middle = region.plane;
         let may_be_limb = |mesh: &usize| {
             let facts = &self.known.facts[*mesh];
-            facts.is_closed() && !region.is_on_face(facts)
+            facts.extent() >= LIMB && facts.is_closed() && !region.is_on_face(facts)
         };
         let with_slices = |mesh: usize| (mesh, slices(figure, middle, &|other| other == mesh));
         let mut candidates: Vec<(usize, Slices)> =
@@ -282,7 +301,7 @@ impl Scene<'_> {
         let (low, high) = range(points.filter(|p| p.y > chin).map(|p| p.z));
         let middle = if low <= high { (low + high) / 2.0 } else { 0.0 };
         let middle = head.map_or(middle, |head| head.z);
-        HeadRegion { plane, chin, middle, length: 1.0 - chin }
+        HeadRegion { plane, chin, middle, length: (1.0 - chin).max(LEAST_HEAD) }
     }
 
     /// What a mesh is that is not body.
@@ -292,7 +311,8 @@ impl Scene<'_> {
         let above = facts.share(|sample| sample.point.y > region.chin);
         let doubtful = |share: f64, limit: f64| (share - limit).abs() < DOUBT;
         let enclosed = self.enclosed_share(mesh);
-        let is_inside = enclosed >= MOST && facts.middle().y > region.chin;
+        let at_head = facts.middle().y > region.chin - TEETH_BELOW * region.length;
+        let is_inside = enclosed >= MOST && at_head;
         if region.is_on_face(facts) || (is_inside && facts.extent() <= MOST_FACE_PART * region.length) {
             return Guess { kind: MeshKind::FacePart, sure: enclosed >= MOST - DOUBT };
         }
@@ -301,7 +321,7 @@ impl Scene<'_> {
             && facts.high.x > region.plane
             && facts.low.z < region.middle
             && facts.high.z > region.middle;
-        if above >= MOST
+        if above >= HEAD_ABOVE
             && layer < SOME
             && facts.is_closed()
             && on_axis
@@ -316,19 +336,20 @@ impl Scene<'_> {
         if layer >= MOST {
             return Guess { kind: MeshKind::Garment, sure: !doubtful(layer, MOST) };
         }
-        // Where it begins.
+        // How far it sticks out from what is below, and where it begins.
         let around =
             |other: usize| other != mesh && (is_body[other] || self.known.facts[other].area > facts.area);
         let rest = Surface::new(&self.figure.positions, &self.figure.triangles_where(around));
         let samples = facts.samples.iter().map(|sample| sample.point);
         let distances: Vec<(f64, f64)> =
             samples.filter_map(|p| Some((rest.closest_point(p)?.distance, p.y))).collect();
+        let furthest = distances.iter().map(|&(distance, _)| distance).fold(0.0, f64::max);
         let nearest = distances.iter().min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let from_head = nearest.is_some_and(|&(_, height)| height > region.chin);
         let over_body = facts.share(|sample| sample.over.is_some_and(|below| is_body[below]));
         let kind = if from_head && facts.extent() >= HALF_A_HEAD * region.length {
             MeshKind::Hair
-        } else if over_body >= SOME && !facts.is_closed() {
+        } else if furthest <= WORN || (over_body >= SOME && !facts.is_closed()) {
             MeshKind::Garment
         } else {
             MeshKind::Accessory
