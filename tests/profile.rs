@@ -213,6 +213,40 @@ fn a_result_has_the_body_of_its_reference() {
     }
 }
 
+#[test]
+fn an_arm_is_no_slimmer_where_it_leaves_the_trunk() {
+    // Arms taper from shoulder to wrist, the sample's as the style's. Where its trunk became shorter and its arms thicker, shoulders
+    // were as low as the former made them: two thirds of what the arm was a little further out.
+    let [target, reference] = ["quaternius_female_dress.glb", "kaykit_rogue.glb"]
+        .map(|name| loaded(GltfFile::read(&samples::data().join(name)).unwrap()).character);
+    let style = models::style(&reference, &Options::default());
+    let deformer = Deformer::new(Arc::new(target.clone()), &style, &Options::default()).unwrap();
+    for character in [target.with(&deformer.apply()), target] {
+        let figure = Figure::of(&character).unwrap();
+        let of = |role: Role| figure.role_position(role).unwrap();
+        let (shoulder, elbow) = (of(Role::LeftUpperArm), of(Role::LeftLowerArm));
+        // How high a cut across the arm is.
+        let height = |share: f64| {
+            let x = shoulder.x + share * (elbow.x - shoulder.x);
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for corners in &figure.triangles {
+                let places = corners.map(|vertex| figure.positions[vertex as usize]);
+                for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (places[a], places[b])) {
+                    let y = a.lerp(b, (x - a.x) / (b.x - a.x)).y;
+                    if (a.x - x) * (b.x - x) < 0.0 && (y - shoulder.y).abs() < shoulder.distance(elbow) {
+                        (low, high) = (low.min(y), high.max(y));
+                    }
+                }
+            }
+            high - low
+        };
+        let inwards: Vec<f64> = (0..=20).map(|at| height(1.0 - f64::from(at) / 20.0)).collect();
+        for pair in inwards.windows(2) {
+            assert!(pair[1] > 0.95 * pair[0], "{inwards:?}");
+        }
+    }
+}
+
 /// A slim adult whose trunk's vertices, so far up from crotch (0) to shoulder line (1), are where `moved` puts them.
 fn with_trunk(moved: impl Fn(DVec3, f64) -> DVec3) -> (Character, Vec<f64>) {
     let mut person = Person { blended: true, columns: 96, ..Person::adult() };

@@ -203,13 +203,19 @@ fn the_chin_stays_above_the_shoulders() {
         if !study.anatomy.landmarks.chin_seen {
             return Vec::new();
         }
-        // Where the trunk takes the height of the shoulder line: joints of unequal height have another mean.
+        // Where the trunk takes the height of the shoulder line, as it goes on above the arms: joints of unequal height have another
+        // mean, and arms that become thicker grow downwards from there.
         let before = run.before();
-        let line = DVec3::Y * study.anatomy.landmarks.heights.shoulder_line;
+        let (line, own) =
+            (study.anatomy.landmarks.heights.shoulder_line, study.anatomy.proportions.head_length);
         let hips = before.humanoid.joint(Role::Hips).unwrap();
-        let line = run.deformer.map(hips, before.frame.to_model(line)).position;
-        let head = 1.5 * study.anatomy.proportions.head_length;
-        let seat = (new_chin(run) - before.frame.to_canonical(line).y) / head;
+        let to = |height: f64| {
+            let to = run.deformer.map(hips, before.frame.to_model(DVec3::Y * height)).position;
+            before.frame.to_canonical(to).y
+        };
+        let line = 2.0 * to(line + own) - to(line + 2.0 * own);
+        let head = 1.5 * own;
+        let seat = (new_chin(run) - line) / head;
         (!(0.03 - 1e-6..=0.22 + 1e-6).contains(&seat))
             .then(|| format!("{}: chin {seat:.7} heads over the shoulder line", run.name))
             .into_iter()

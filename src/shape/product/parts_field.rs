@@ -15,13 +15,15 @@ use super::profile::map::chain_of;
 use super::profile::radius_map::Spot;
 use super::profile::relief::Relief;
 use super::scales::{HeadScale, PartCoefficients, Scale};
-use crate::geometry::{Mapped, Moved, outer};
+use crate::geometry::{Mapped, Moved, outer, smoothstep};
 use crate::shape::heights::Heights;
 use glam::{DMat3, DVec3};
 
 /// Above the shoulder line the torso's heights change at most this many times as much as the neck's. D28. Seen: less
 /// sinks collars by up to .013 H.
 const YOKE_PER_NECK: f64 = 1.5;
+/// Of what the torso's length leaves of it, arms that become thicker leave at least this much below them.
+const LEAST_TRUNK: f64 = 0.5;
 /// A piece that is kept from reaching below the ground keeps at least this share of its size: for things as long as the
 /// figure is tall, of which none was seen.
 const SMALLEST_PIECE: f64 = 0.05;
@@ -50,6 +52,81 @@ impl Affine {
     }
 }
 
+/// Where arms leave the torso.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Yoke {
+    /// Half of how high an arm is there.
+    pub half: f64,
+    /// How much higher it becomes.
+    pub scale: f64,
+    /// How much of that is height: 1 of an arm held out, 0 of one that hangs.
+    pub level: f64,
+}
+
+impl Yoke {
+    /// Of a body whose arms are not measured.
+    const NONE: Self = Self { half: 0.0, scale: 1.0, level: 0.0 };
+}
+
+/// Heights of the torso, before and after. From as far above the shoulder line as arms reach to as far below it they are
+/// stretched as arms are, so that both are equally high where they meet; within as much again the slope goes over into that of
+/// the rest. The top stays: arms that become thicker grow downwards, away from the chin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct TorsoHeights {
+    /// Sole, crotch, shoulder line, before and after.
+    sole: [f64; 2],
+    crotch: [f64; 2],
+    shoulder_line: [f64; 2],
+    half: f64,
+    /// Slopes above the yoke, in its two halves, and of the rest down to the crotch.
+    above: f64,
+    yoke: [f64; 2],
+    rest: f64,
+}
+
+impl TorsoHeights {
+    /// - `length`, `above`: the slopes without a yoke.
+    fn new(before: &Heights, after: &Heights, length: f64, above: f64, yoke: Yoke) -> Self {
+        let whole = before.shoulder_line - before.crotch;
+        let half = yoke.half.clamp(TINY, whole.max(TINY) / 3.0);
+        // The slope within half below the yoke, in the mean halfway, counts as half of it.
+        let (below, left) = (1.5 * half, whole - 1.5 * half);
+        let room = half * above + below * length + (1.0 - LEAST_TRUNK) * length * left / yoke.level.max(TINY);
+        let scale = yoke.scale.min(room / (half + below));
+        let slopes = [above, length].map(|own| own + yoke.level * (scale - own));
+        let middle = after.shoulder_line + half * (above - slopes[0]);
+        Self {
+            sole: [before.sole, after.sole],
+            crotch: [before.crotch, after.crotch],
+            shoulder_line: [before.shoulder_line, middle],
+            half,
+            above,
+            yoke: slopes,
+            rest: (middle - after.crotch - below * slopes[1]) / left,
+        }
+    }
+
+    /// Where height `y` goes, and the slope there.
+    #[inline(always)]
+    fn at(&self, y: f64) -> (f64, f64) {
+        if y < self.crotch[0] {
+            let slope = (self.crotch[1] - self.sole[1]) / (self.crotch[0] - self.sole[0]);
+            return (self.sole[1] + slope * (y - self.sole[0]), slope);
+        }
+        let Self { half, above, yoke: [upper, lower], rest, .. } = *self;
+        let up = y - self.shoulder_line[0];
+        if up >= 0.0 {
+            let (within, beyond) = (up.min(half), (up - half).max(0.0));
+            let slope = if up < half { upper } else { above };
+            return (self.shoulder_line[1] + upper * within + above * beyond, slope);
+        }
+        let x = (-up / half - 1.0).clamp(0.0, 1.0);
+        let of_yoke = (-up).min(half) + half * (x - x * x * x + 0.5 * x * x * x * x);
+        let to = self.shoulder_line[1] + rest * up - (lower - rest) * of_yoke;
+        (to, lower + (rest - lower) * smoothstep(x))
+    }
+}
+
 /// Product mode's field.
 #[derive(Clone, Debug)]
 pub struct PartField {
@@ -58,8 +135,8 @@ pub struct PartField {
     after: Heights,
     /// Maps of the parts that are affine: head and limbs; torso and neck have their own.
     affine: [Affine; PART_COUNT],
-    /// Slope of heights above the shoulder line on the torso.
-    yoke_slope: f64,
+    heights: TorsoHeights,
+    yoke: Yoke,
     /// z about which the torso's centre line is flattened.
     hip_z: f64,
     /// The neck's axis at the shoulder line, before and after.
@@ -72,14 +149,22 @@ pub struct PartField {
 impl PartField {
     /// The field that moves a figure of `anatomy` by `coefficients`.
     pub fn new(anatomy: &Anatomy, coefficients: PartCoefficients) -> Self {
+        Self::with_yoke(anatomy, coefficients, Yoke::NONE)
+    }
+
+    fn with_yoke(anatomy: &Anatomy, coefficients: PartCoefficients, yoke: Yoke) -> Self {
         let before = anatomy.landmarks.heights;
+        let after = heights_after(anatomy, &coefficients);
+        let Scale { length, thickness } = coefficients.torso;
+        let above = thickness.min(YOKE_PER_NECK * coefficients.neck.length).min(1.0);
         let base = anatomy.centre_z(before.shoulder_line).0;
         let mut field = Self {
             anatomy: anatomy.clone(),
             coefficients,
-            after: heights_after(anatomy, &coefficients),
+            after,
             affine: [Affine::IDENTITY; PART_COUNT],
-            yoke_slope: coefficients.torso.thickness.min(YOKE_PER_NECK * coefficients.neck.length).min(1.0),
+            heights: TorsoHeights::new(&before, &after, length, above, yoke),
+            yoke,
             hip_z: anatomy.centre_line.iter().map(|point| point.1).sum::<f64>()
                 / anatomy.centre_line.len() as f64,
             neck_z: [base, base],
@@ -93,9 +178,14 @@ impl PartField {
         field
     }
 
+    /// The same field with arms that leave the torso so.
+    pub fn from_yoke(&self, yoke: Yoke) -> Self {
+        Self::with_yoke(&self.anatomy, self.coefficients, yoke)
+    }
+
     /// The same field about another centre line of the torso.
     pub fn about(&self, centre_line: Vec<(f64, f64)>) -> Self {
-        Self::new(&Anatomy { centre_line, ..self.anatomy.clone() }, self.coefficients)
+        Self::with_yoke(&Anatomy { centre_line, ..self.anatomy.clone() }, self.coefficients, self.yoke)
     }
 
     /// The same field after `slices`, which takes `pieces` along.
@@ -109,14 +199,10 @@ impl PartField {
     /// By part, 0 where it does what `other` does, a field of the same figure, else 1.
     pub fn changes(&self, other: &Self) -> PartWeights {
         let levels = |field: &Self| [field.after.sole, field.after.crotch, field.after.shoulder_line];
-        let torso = |field: &Self| (field.coefficients.torso, field.yoke_slope, field.hip_z);
+        let torso = |field: &Self| (field.coefficients.torso, field.heights, field.hip_z);
         let neck = |field: &Self| (field.coefficients.neck, field.neck_z);
         let is_same = |part: usize| match part {
-            TORSO => {
-                self.anatomy.centre_line == other.anatomy.centre_line
-                    && torso(self) == torso(other)
-                    && levels(self) == levels(other)
-            }
+            TORSO => self.anatomy.centre_line == other.anatomy.centre_line && torso(self) == torso(other),
             NECK => neck(self) == neck(other) && levels(self) == levels(other),
             HAIR => self.affine[HEAD] == other.affine[HEAD],
             _ => self.affine[part] == other.affine[part],
@@ -292,15 +378,7 @@ impl PartField {
     #[inline(always)]
     fn torso(&self, p: DVec3) -> Mapped {
         let Scale { length, thickness } = self.coefficients.torso;
-        let (before, after) = (self.before(), &self.after);
-        let (y, slope) = if p.y < before.crotch {
-            let slope = (after.crotch - after.sole) / (before.crotch - before.sole);
-            (after.sole + slope * (p.y - before.sole), slope)
-        } else if p.y < before.shoulder_line {
-            (after.crotch + length * (p.y - before.crotch), length)
-        } else {
-            (after.shoulder_line + self.yoke_slope * (p.y - before.shoulder_line), self.yoke_slope)
-        };
+        let (y, slope) = self.heights.at(p.y);
         let (centre, centre_slope) = self.anatomy.centre_z(p.y);
         let flattening = length.min(thickness);
         let x = self.anatomy.middle_x + thickness * (p.x - self.anatomy.middle_x);
@@ -385,16 +463,11 @@ impl PartField {
 
     /// Where the body's heights go, piecewise between the landmarks: what hair follows.
     pub fn body_height(&self, y: f64) -> f64 {
-        let (b, a) = (self.before(), &self.after);
-        let knots =
-            [(b.sole, a.sole), (b.crotch, a.crotch), (b.shoulder_line, a.shoulder_line), (b.chin, a.chin)];
-        for pair in knots.windows(2) {
-            let ((y0, to0), (y1, to1)) = (pair[0], pair[1]);
-            if y < y1 || y1 == b.chin {
-                return to0 + (to1 - to0) * (y - y0) / (y1 - y0).max(TINY);
-            }
+        let [shoulder_line, to] = self.heights.shoulder_line;
+        if y < shoulder_line {
+            return self.heights.at(y).0;
         }
-        a.chin
+        to + (self.after.chin - to) * (y - shoulder_line) / (self.before().chin - shoulder_line).max(TINY)
     }
 }
 
@@ -421,4 +494,60 @@ fn heights_after(anatomy: &Anatomy, coefficients: &PartCoefficients) -> Heights 
     let chin = shoulder_line + coefficients.neck.length * proportions.neck;
     let crown = chin + coefficients.head.height * proportions.head_length;
     Heights { crown, chin, shoulder_line, crotch, sole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BEFORE: Heights = Heights { crown: 1.9, chin: 1.6, shoulder_line: 1.5, crotch: 0.9, sole: 0.0 };
+    const AFTER: Heights = Heights { crown: 1.1, chin: 0.7, shoulder_line: 0.6, crotch: 0.3, sole: 0.0 };
+
+    /// Half as long below the shoulder line, and .7 times above it.
+    fn with(half: f64, scale: f64, level: f64) -> TorsoHeights {
+        TorsoHeights::new(&BEFORE, &AFTER, 0.5, 0.7, Yoke { half, scale, level })
+    }
+
+    #[test]
+    fn a_torso_is_as_high_as_arms_are_where_they_leave_it() {
+        let torso = with(0.05, 1.2, 1.0);
+        let height = |y: f64| torso.at(y).0;
+        // The arm's top stays, and all above it.
+        for y in [1.55, 1.7] {
+            assert!((height(y) - (0.6 + 0.7 * (y - 1.5))).abs() < 1e-12);
+        }
+        assert!((height(1.55) - height(1.45) - 1.2 * 0.1).abs() < 1e-12);
+        assert!((height(0.9) - 0.3).abs() < 1e-12 && height(0.0) == 0.0);
+        // Below the yoke what is left is even again.
+        assert!((torso.at(1.39).1 - torso.at(0.95).1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_arms_that_are_held_out_a_torso_has_one_slope() {
+        for torso in [with(0.05, 1.2, 0.0), TorsoHeights::new(&BEFORE, &AFTER, 0.5, 0.7, Yoke::NONE)] {
+            for y in [0.95, 1.2, 1.44, 1.5, 1.52, 1.8] {
+                let slope = if y < 1.5 { 0.5 } else { 0.7 };
+                let (to, found) = torso.at(y);
+                assert!((to - (0.6 + slope * (y - 1.5))).abs() < 1e-9, "{y}: {to}");
+                assert!(y == 1.5 || (found - slope).abs() < 1e-9, "{y}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn heights_keep_their_order_and_have_the_slope_that_is_said() {
+        for (half, scale, level) in [(0.05, 1.2, 1.0), (0.05, 40.0, 0.7), (3.0, 2.0, 1.0), (0.1, 0.01, 1.0)] {
+            let torso = with(half, scale, level);
+            for y in (1..190).map(|row| 0.01 * f64::from(row) + 0.003) {
+                let slope = (torso.at(y + 1e-7).0 - torso.at(y - 1e-7).0) / 2e-7;
+                assert!(
+                    (torso.at(y).1 - slope).abs() < 1e-5 * slope.max(1.0),
+                    "{half} {scale} at {y}: {slope}"
+                );
+                assert!(slope > 0.0, "{half} {scale} {level} at {y}: {slope}");
+            }
+            let least = torso.at(0.91).1;
+            assert!(least > 0.5 * LEAST_TRUNK - 1e-9, "{least}");
+        }
+    }
 }

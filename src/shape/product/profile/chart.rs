@@ -1,13 +1,15 @@
 //! The chart of a body (D29): what is measured of it once, as it stands, and what a style makes of that. Relief and slices act
 //! where they were measured, before the parts' lengths, so that nothing is measured on what is deformed.
 
-use super::curve::{smooth, smooth_lengths};
+use super::curve::{monotone_cubic, smooth, smooth_lengths};
 use super::cuts::{BodyFrame, BodyLines, on_limb};
 use super::hand::size_at;
 use super::radius_map::Spot;
 use super::relief::{Reaches, Relief};
 use super::slice_scales::{Scales, Strengths, mitt, scales};
-use super::{ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, stations};
+use super::{
+    ARM_STATIONS, BodyMap, LEG_STATIONS, Profile, Row, STATIONS, TORSO_STATIONS, TorsoProfile, stations,
+};
 use crate::error::Warning;
 use crate::geometry::slice::Planes;
 use crate::geometry::{self, Rows, smoothstep};
@@ -15,7 +17,7 @@ use crate::shape::Measured;
 use crate::shape::figure::Figure;
 use crate::shape::product::binding::PartBinding;
 use crate::shape::product::part::{PART_COUNT, Part};
-use crate::shape::product::parts_field::{PartField, is_of_head};
+use crate::shape::product::parts_field::{PartField, Yoke, is_of_head};
 use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::DVec2;
 
@@ -76,6 +78,9 @@ impl Chart {
     /// relief leaves of the torso.
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> (Slices, PartField) {
         let frame = &self.frame;
+        let with_yoke = self.yoke(parts, wanted, strengths).map(|yoke| parts.from_yoke(yoke));
+        let parts = with_yoke.as_ref().unwrap_or(parts);
+        let (wanted, torso_top) = &self.where_parts_put_slices(wanted, parts);
         let grows = Grows::of(parts, frame);
         let thicker = self.thicker(wanted).map(|row| mean(row.into_iter().map(f64::ln)).exp());
         let strength = [[strengths.torso; STATIONS], strengths.leg, strengths.arm];
@@ -102,6 +107,7 @@ impl Chart {
         let straight = grows.straightened(&smooth, &strengths.leg);
         let mut scales = scales(&grows.after(&straight), wanted, strengths);
         scales.mitt = share;
+        scales.torso_top = torso_top.map(|top| top.powf(strengths.torso));
         grows.back(&mut scales, &smooth, &straight);
         // Where none is asked for, what spreads there from beside does not count.
         let mut relieved = self.thicker(&smooth);
@@ -115,6 +121,38 @@ impl Chart {
             limited: scales.limited,
         };
         (slices, about)
+    }
+
+    /// How high arms are, and become, where they leave the torso.
+    fn yoke(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> Option<Yoke> {
+        let length = self.frame.head_length();
+        let own = length * self.own.arm.as_ref()?.breadth[0];
+        let wanted = parts.after().head_length() * wanted.arm.as_ref()?.breadth[0];
+        let thickness = parts.coefficients().upper_arm.thickness;
+        let scale = thickness * (wanted / (own * thickness)).powf(strengths.arm[0]);
+        let across = (0..2).filter_map(|side| Some(1.0 - self.frame.arm_planes(side)?.axis.y.powi(2)));
+        Some(Yoke { half: own, scale, level: mean(across) })
+    }
+
+    /// The profile `wanted`, with the torso's slices of where `parts` put this body's, and how much broader and deeper its last one
+    /// is than that: where arms become so thick that the torso's last slice comes to lie lower than in the style.
+    fn where_parts_put_slices(&self, wanted: &Profile, parts: &PartField) -> (Profile, [f64; 2]) {
+        let (mut wanted, mut top) = (wanted.clone(), [1.0; 2]);
+        let heights = &self.frame.heights;
+        let [low, high] = [heights.crotch, heights.shoulder_line].map(|y| parts.body_height(y));
+        let of_torso = stations(TORSO_STATIONS);
+        let to = of_torso.map(|t| {
+            (parts.body_height(heights.crotch + t * self.frame.torso_length()) - low) / (high - low)
+        });
+        if let Some(TorsoProfile { breadth, depth, forward }) = &mut wanted.torso {
+            let last = STATIONS - 1;
+            let ends = [breadth[last], depth[last]];
+            for row in [&mut *breadth, &mut *depth, forward] {
+                *row = to.map(|t| monotone_cubic(&of_torso, row, t));
+            }
+            top = [ends[0] / breadth[last], ends[1] / depth[last]];
+        }
+        (wanted, top)
     }
 
     /// How much thicker the slices of torso, legs and arms are in the profile `other`, in its heads.

@@ -23,10 +23,8 @@ const ROWS_OF_ARM: usize = 200;
 /// What is shorter than this, in head lengths, is smoothed out of the torso's functions: it joins torso and neck at the shoulder
 /// line, and torso and legs so much below the crotch, where a jacket has its hem behind it.
 const JOINING: f64 = 0.08;
-/// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1); an arm between shoulder
-/// joint (0) and wrist (1).
+/// A leg goes over from the torso's map to its own between these places from crotch (0) to ankle (1).
 const LEG_FADE: (f64, f64) = (-0.10, 0.10);
-const ARM_FADE: (f64, f64) = (0.05, 0.20);
 /// A neck's surface, in its radii: collars lie on it.
 const NECK_REACH: f64 = 1.2;
 /// Half extents where a body has none that were measured, in head lengths; nothing is scaled there.
@@ -212,11 +210,7 @@ impl BodyMap {
     }
 
     fn arm_or_torso<M: Moved>(&self, side: usize, p: DVec3) -> M {
-        let Some(arm) = &self.arms[side] else { return self.torso(p) };
-        let t = arm.planes.locate(p).0 / arm.length;
-        let (share, slope) = smoothstep_slope((t - ARM_FADE.0) / (ARM_FADE.1 - ARM_FADE.0));
-        let slope = arm.planes.axis * (slope / (ARM_FADE.1 - ARM_FADE.0) / arm.length);
-        mix(share, slope, || self.torso(p), || arm.map(p, false))
+        self.arms[side].as_ref().map_or_else(|| self.torso(p), |arm| arm.map(p, false))
     }
 
     /// Before the wrist what a hand moves goes over to the arm's map, as soft weights reach far.
@@ -406,12 +400,14 @@ fn level_tables(
         let t = (y - crotch) / torso_length;
         let neck = smoothstep((y - shoulder_line) / (chin - shoulder_line).max(1e-3 * length));
         let at = |row: &Row| monotone_cubic(&torso_places, row, t);
+        let top = smoothstep((t - TORSO_STATIONS.1) / (1.0 - TORSO_STATIONS.1));
+        let scale = |row: &Row, axis: usize| at(row) * scales.torso_top[axis].powf(top);
         let to_neck = |scale: f64| scale * (scales.neck / scale).powf(neck);
         let half = |row: Option<&Row>| length * row.map_or(ANY_HALF, at);
         let torso = own.torso.as_ref();
         [
-            to_neck(at(&scales.torso.breadth)),
-            to_neck(at(&scales.torso.depth)),
+            to_neck(scale(&scales.torso.breadth, 0)),
+            to_neck(scale(&scales.torso.depth, 1)),
             half(torso.map(|torso| &torso.breadth)),
             half(torso.map(|torso| &torso.depth)),
             planes.origin.z + length * torso.map_or(0.0, |torso| at(&torso.forward)),

@@ -94,6 +94,9 @@ pub struct SkirtScale {
 pub struct Scales {
     /// Of the torso, upwards.
     pub torso: SliceScales,
+    /// How much broader and deeper the torso is at the shoulder line than by its last slice: none, until
+    /// [`Chart::slices`](super::Chart::slices) says where the style's slices come to lie.
+    pub torso_top: [f64; 2],
     /// Of both legs, downwards.
     pub leg: SliceScales,
     /// How far each leg moves outward.
@@ -161,6 +164,7 @@ pub fn scales(own: &Profile, wanted: &Profile, strengths: &Strengths) -> Scales 
     let wanted = flesh(wanted, own);
     let mut result = Scales {
         torso: SliceScales::NONE,
+        torso_top: [1.0; 2],
         leg: SliceScales::NONE,
         spread: 0.0,
         leg_shift: [0.0; STATIONS],
