@@ -1,14 +1,19 @@
 //! Vertices that share a position: seam copies become one, so that a mesh can be walked along its surface.
 
+use super::NONE;
 use super::cells::CellMap;
 use super::groups::{Groups, Rows, by_number};
 use super::lists::marked;
 use super::whole::floor;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Vertices this near are one, as a part of the figure's height: exporters split vertices along seams, and rounding to
 /// floats far from the origin moves the copies apart by less. Seen: ±30 % moves no vertex.
 pub const SEAM: f64 = 1e-6;
+
+/// The cosine of the angle, 2.6 degrees, above which two normals at one place are of two facets: those of seams differ by rounding, to
+/// 8 bits by .5 degrees, and edges that are flatter are not seen.
+const FACET: f32 = 0.999;
 
 /// Which vertices share a position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,6 +28,35 @@ impl Weld {
     /// Of `count` vertices of which no two are one.
     pub fn alone(count: usize) -> Self {
         Self { representative: (0..count as u32).collect(), count }
+    }
+
+    /// The same, but vertices at one place are apart where a facet's edge is between them: their `normals`, of unit length or 0, are
+    /// further apart than [`FACET`]. Each belongs with the first that is not; what has no normal, with the first of all.
+    ///
+    /// O(vertices), times how many facets meet at a place.
+    pub fn parted(&self, normals: &[Vec3]) -> Self {
+        let mut representative = Vec::with_capacity(normals.len());
+        // A normal of each facet, and the facet before it at its place.
+        let mut facets: Vec<(Vec3, u32)> = Vec::new();
+        let mut last = vec![NONE; self.count];
+        for (&welded, &normal) in self.representative.iter().zip(normals) {
+            let last = &mut last[welded as usize];
+            // The first that it may belong with: equal normals belong together, whatever comes between.
+            let (mut facet, mut next) = (NONE, *last);
+            while next != NONE {
+                let (other, before) = facets[next as usize];
+                if normal.dot(other) >= FACET * normal.length_squared() * other.length_squared() {
+                    facet = next;
+                }
+                next = before;
+            }
+            if facet == NONE {
+                facet = facets.len() as u32;
+                facets.push((normal, std::mem::replace(last, facet)));
+            }
+            representative.push(facet);
+        }
+        Self { representative, count: facets.len() }
     }
 
     /// For each welded vertex the first vertex that belongs to it.
@@ -166,6 +200,17 @@ mod tests {
         assert_eq!(welded.representative, [0, 1, 0, 1, 1]);
         assert_eq!(welded.count, 2);
         assert_eq!(welded.first_vertices(), [0, 1]);
+    }
+
+    #[test]
+    fn facets_are_parted_and_seams_are_not() {
+        let place = |x: f64| DVec3::new(x, 0.0, 0.0);
+        let welded = weld(&[place(0.0), place(0.0), place(1.0), place(0.0), place(0.0), place(1.0)], 0.0);
+        let near = Vec3::new(0.01, 1.0, 0.0).normalize();
+        let parted = welded.parted(&[Vec3::Y, Vec3::X, Vec3::X, near, Vec3::X, Vec3::ZERO]);
+        assert_eq!((&parted.representative[..], parted.count), (&[0, 1, 2, 0, 1, 2][..], 3));
+        // Without normals nothing is.
+        assert_eq!(welded.parted(&[Vec3::ZERO; 6]), welded);
     }
 
     #[test]

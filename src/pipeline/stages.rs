@@ -323,5 +323,9 @@ fn rest_triangles(view: &View) -> Result<RestTriangles> {
     let Measured { figure, weld, .. } = &*view.measured()?;
     let meshes = &view.character().meshes;
     let positions: Vec<Vec3> = meshes.iter().flat_map(|mesh| &mesh.positions).copied().collect();
-    Ok(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, weld))
+    let vertices =
+        meshes.iter().flat_map(|mesh| (0..mesh.positions.len()).map(|vertex| mesh.normals.get(vertex)));
+    let normals: Vec<Vec3> =
+        vertices.map(|normal| normal.map_or(Vec3::ZERO, |normal| normal.normalize_or_zero())).collect();
+    Ok(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, &weld.parted(&normals)))
 }

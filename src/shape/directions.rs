@@ -2,7 +2,8 @@
 //!
 //! The field's own Jacobian holds the weights fixed, but weights change along the surface and that turns it too. So
 //! the Jacobian is fitted to what happened to the triangles around each welded vertex; authored normals (faces of
-//! drawn characters have edited ones) keep what was edited, and vertices at one place turn alike.
+//! drawn characters have edited ones) keep what was edited. Vertices at one place turn alike where they have one normal; where a
+//! facet's edge is between them, each turns with its own facet, so that what is shaded flat stays flat.
 //!
 //! Vertices are taken in pieces, as many as fit a processor's nearest memory with the triangles around them: four
 //! triangles side by side, then each vertex sums up what happens around it, and nothing is kept from piece to piece. A

@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 use superdeform::internals::geometry::Surface;
 use superdeform::internals::shape::Measured;
 use superdeform::internals::shape::figure::Figure;
-use superdeform::{Deformed, Deformer, Height, MeshKind, Mode, Options, Progress, Role, Style};
+use superdeform::{Deformed, Deformer, Height, MeshKind, Mode, Options, Progress, Role, Style, Weights};
 
 /// People of the usual build, in casual and formal clothes, one without a face, one in a dance pose.
 const PEOPLE: [&str; 8] = [
@@ -569,6 +569,46 @@ fn normals_have_length_one_and_agree_on_seams() {
         }
         failures
     });
+}
+
+#[test]
+fn what_is_shaded_flat_stays_flat() {
+    // Each triangle of an adult of eight columns has vertices of its own, with its own normal, as low-poly figures have.
+    let mut character = Person { columns: 8, ..Person::adult() }.build();
+    for mesh in &mut character.meshes {
+        let corners: Vec<usize> = mesh.triangles.iter().flatten().map(|&vertex| vertex as usize).collect();
+        mesh.positions = corners.iter().map(|&vertex| mesh.positions[vertex]).collect();
+        mesh.weights = Weights::from_rows(corners.iter().map(|&vertex| mesh.weights.row(vertex).to_vec()));
+        mesh.triangles = (0..corners.len() as u32 / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
+        mesh.normals = facets(&mesh.positions).into_iter().flat_map(|normal| [normal; 3]).collect();
+    }
+    let deformed =
+        Deformer::new(Arc::new(character.clone()), &Style::Heads(2.0), &Options::default()).unwrap().apply();
+    let mut checked = 0;
+    for (before, after) in character.meshes.iter().zip(&deformed.meshes) {
+        let mut copies: HashMap<[u32; 3], Vec<glam::Vec3>> = HashMap::new();
+        for (p, &normal) in before.positions.iter().zip(&before.normals) {
+            copies.entry(p.to_array().map(f32::to_bits)).or_default().push(normal);
+        }
+        let facets = facets(&after.positions).into_iter().flat_map(|facet| [facet; 3]);
+        for (vertex, facet) in facets.enumerate().filter(|(_, facet)| *facet != glam::Vec3::ZERO) {
+            let normal = before.normals[vertex];
+            // Halves of a quad are one facet, which may bend.
+            let copies = &copies[&before.positions[vertex].to_array().map(f32::to_bits)];
+            if copies.iter().filter(|copy| normal.dot(**copy) > 0.99).count() == 1 {
+                let off = after.normals[vertex].angle_between(facet);
+                assert!(off < 1e-2, "{vertex}: {off}");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 1000, "{checked}");
+}
+
+/// The unit normals of triangles that have three of the `positions` each; 0 of what has no area.
+fn facets(positions: &[glam::Vec3]) -> Vec<glam::Vec3> {
+    let normal = |p: &[glam::Vec3]| (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+    positions.chunks_exact(3).map(normal).collect()
 }
 
 /// Every number of a result, bit for bit.
