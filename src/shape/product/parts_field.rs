@@ -65,7 +65,7 @@ pub struct Yoke {
 
 impl Yoke {
     /// Of a body whose arms are not measured.
-    const NONE: Self = Self { half: 0.0, scale: 1.0, level: 0.0 };
+    pub const NONE: Self = Self { half: 0.0, scale: 1.0, level: 0.0 };
 }
 
 /// Heights of the torso, before and after. From as far above the shoulder line as arms reach to as far below it they are

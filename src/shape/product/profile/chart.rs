@@ -78,8 +78,7 @@ impl Chart {
     /// relief leaves of the torso.
     pub fn slices(&self, parts: &PartField, wanted: &Profile, strengths: &Strengths) -> (Slices, PartField) {
         let frame = &self.frame;
-        let with_yoke = self.yoke(parts, wanted, strengths).map(|yoke| parts.from_yoke(yoke));
-        let parts = with_yoke.as_ref().unwrap_or(parts);
+        let parts = &parts.from_yoke(self.yoke(parts, wanted, strengths).unwrap_or(Yoke::NONE));
         let (wanted, torso_top) = &self.where_parts_put_slices(wanted, parts);
         let grows = Grows::of(parts, frame);
         let thicker = self.thicker(wanted).map(|row| mean(row.into_iter().map(f64::ln)).exp());

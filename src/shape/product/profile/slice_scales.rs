@@ -6,9 +6,8 @@ use super::{
 };
 use crate::geometry::smoothstep;
 
-/// Soft limits of ln S: of slices and hands, and of feet.
+/// A soft limit of ln S: of slices, hands and feet.
 const MOST: f64 = 2.4;
-const MOST_OF_FOOT: f64 = 0.6;
 /// A hand this much broader than thick lies flat; one as broad as thick is a fist.
 const FLAT_HAND: f64 = 1.3;
 /// The distance between legs is that of this part of them from the crotch; below it is stance.
@@ -328,7 +327,7 @@ fn foot(result: &mut Scales, own: [f64; 5], wanted: [f64; 5], strengths: &Streng
     let strength = strengths.foot;
     let sizes = |[toes, heel, breadth, ..]: [f64; 5]| [toes + heel, breadth];
     let (before, after) = (sizes(own), sizes(wanted));
-    let most = strengths.limit(MOST_OF_FOOT);
+    let most = strengths.limit(MOST);
     let [length, breadth] = [0, 1].map(|axis| soft_scale(after[axis], before[axis], strength, most));
     let toes = (wanted[4] / own[4]).clamp(1.0, 1.8).powf(strength);
     result.foot = [length, breadth, toes];
