@@ -9,10 +9,18 @@ use crate::shape::figure::Figure;
 use crate::shape::product::anatomy::Anatomy;
 use crate::shape::product::part::{Part, PartWeights, fold_to_parts};
 
-/// What moves a vertex more than this, it belongs to. A majority.
-const MOST: f32 = 0.5;
-/// But a leg takes what it moves more than this: around the crotch its pelvis and the other leg share what is its own.
-const LEG_SHARE: f32 = 0.3;
+/// Torso and legs are what arms and head move less than this. Made weights reach so far that less leaves no whole slice of a
+/// chest: a bust was then as steep as it had been.
+const ARM_SHARE: f32 = 0.6;
+const HEAD_SHARE: f32 = 0.5;
+/// An arm is what it moves more than this; its relief is that of what the hand moves less than this.
+const OWN_ARM_SHARE: f32 = 0.4;
+const LESS_OF_HAND: f32 = 0.7;
+/// A leg's relief is that of what it moves more than this, and the foot less than this.
+const OWN_LEG_SHARE: f32 = 0.3;
+const LESS_OF_FOOT: f32 = 0.6;
+/// Hands and feet are what they move more than this.
+const EXTREMITY_SHARE: f32 = 0.5;
 /// From this part of the leg's length under the crotch on, trousers are two tubes.
 const FORK: f64 = 0.08;
 /// Heights at which pieces are looked at, as parts of the leg's length under the crotch.
@@ -68,13 +76,15 @@ impl Chain {
         let foot = |side: usize| row[[Part::LeftFoot, Part::RightFoot][side] as usize];
         let hand = |side: usize| row[[Part::LeftHand, Part::RightHand][side] as usize];
         match self {
-            Self::Trunk => arm_share(row, 0) + arm_share(row, 1) < MOST && row[Part::Head as usize] < MOST,
-            Self::Leg(side) => leg_sum(side, 3) > LEG_SHARE && foot(side) < MOST,
-            Self::Arm(side) => arm_share(row, side) > MOST,
-            Self::Forearm(side) => arm_share(row, side) > MOST && hand(side) < MOST,
-            Self::Hand(side) => hand(side) > MOST,
-            Self::Foot(side) => foot(side) > MOST,
-            Self::Boot(side) => leg_sum(side, 2) + foot(side) > MOST,
+            Self::Trunk => {
+                arm_share(row, 0) + arm_share(row, 1) < ARM_SHARE && row[Part::Head as usize] < HEAD_SHARE
+            }
+            Self::Leg(side) => leg_sum(side, 3) > OWN_LEG_SHARE && foot(side) < LESS_OF_FOOT,
+            Self::Arm(side) => arm_share(row, side) > OWN_ARM_SHARE,
+            Self::Forearm(side) => arm_share(row, side) > OWN_ARM_SHARE && hand(side) < LESS_OF_HAND,
+            Self::Hand(side) => hand(side) > EXTREMITY_SHARE,
+            Self::Foot(side) => foot(side) > EXTREMITY_SHARE,
+            Self::Boot(side) => leg_sum(side, 2) + foot(side) > EXTREMITY_SHARE,
         }
     }
 }
