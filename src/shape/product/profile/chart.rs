@@ -16,7 +16,7 @@ use crate::geometry::{self, Rows, smoothstep};
 use crate::shape::Measured;
 use crate::shape::figure::Figure;
 use crate::shape::product::binding::PartBinding;
-use crate::shape::product::part::{PART_COUNT, Part};
+use crate::shape::product::part::{PART_COUNT, Part, TINY};
 use crate::shape::product::parts_field::{PartField, Yoke, is_of_head};
 use crate::shape::product::scales::{PartCoefficients, Scale};
 use glam::DVec2;
@@ -141,7 +141,7 @@ impl Chart {
         let [low, high] = [heights.crotch, heights.shoulder_line].map(|y| parts.body_height(y));
         let of_torso = stations(TORSO_STATIONS);
         let to = of_torso.map(|t| {
-            (parts.body_height(heights.crotch + t * self.frame.torso_length()) - low) / (high - low)
+            (parts.body_height(heights.crotch + t * self.frame.torso_length()) - low) / (high - low).max(TINY)
         });
         if let Some(TorsoProfile { breadth, depth, forward }) = &mut wanted.torso {
             let last = STATIONS - 1;

@@ -30,9 +30,9 @@ const LIMB_SIGMA: f64 = 0.20;
 /// Width of the bell for the middles, in head lengths at rest: what the two above are there of an adult's arm. Seen: at .45
 /// the front of a dress and its back, which hang differently far down, are drawn to different sides.
 const MIDDLE_SIGMA: f64 = 0.7;
-/// What the reach may be scaled by. Seen: where a waist may grow by a tenth alone, a trunk of two heads keeps a groove; at 1.3 and at
-/// 1.5 some 2 to 5 % fewer triangles turn over.
-const BOUNDS: (f64, f64) = (0.6, 1.4);
+/// What the reach may be scaled by, or by the inverse of. Seen: where a waist may grow by two fifths alone, backs at two heads keep a
+/// groove, whose trunks are so short below the shoulders.
+const BOUND: f64 = 1.67;
 /// No reach falls off more steeply than this along its axis, at rest. Seen: without it hems stand out as fins and cuffs as lips, and
 /// folds and a suit's back stay grooves; of 626 triangles that turn 5 fewer and 15 more do at ±30 %.
 const STEEPEST: f64 = 1.0;
@@ -272,7 +272,7 @@ impl Body<'_> {
 /// `map` with so much of the scales from its reaches to smooth reaches.
 fn scaled(map: &RadiusMap, smooth: &[Ring], strength: impl Iterator<Item = f64>) -> RadiusMap {
     let scale = |((reach, smooth), strength): ((&Ring, &Ring), f64)| -> Ring {
-        let whole = |ray: usize| (smooth[ray] / reach[ray]).clamp(BOUNDS.0, BOUNDS.1);
+        let whole = |ray: usize| (smooth[ray] / reach[ray]).clamp(1.0 / BOUND, BOUND);
         // A power of 1 takes as long as any other.
         std::array::from_fn(|ray| if strength == 1.0 { whole(ray) } else { whole(ray).powf(strength) })
     };
