@@ -31,7 +31,7 @@ impl Weld {
     }
 
     /// The same, but vertices at one place are apart where a facet's edge is between them: their `normals`, of unit length or 0, are
-    /// further apart than [`FACET`]. Each belongs with the first that is not; what has no normal, with the first of all.
+    /// further apart than 2.6 degrees. Each belongs with the first that is not; what has no normal, with the first of all.
     ///
     /// O(vertices), times how many facets meet at a place.
     pub fn parted(&self, normals: &[Vec3]) -> Self {
