@@ -32,7 +32,7 @@ const LIMB_SIGMA: f64 = 0.20;
 const MIDDLE_SIGMA: f64 = 0.7;
 /// What the reach may be scaled by, or by the inverse of. Seen: where a waist may grow by two fifths alone, backs at two heads keep a
 /// groove, whose trunks are so short below the shoulders; at 1.5 joints in a hand that play no role lie 1 % H beside their skin.
-const BOUND: f64 = 1.45;
+const BOUND: f64 = 1.49;
 /// No reach falls off more steeply than this along its axis, at rest. Seen: without it hems stand out as fins and cuffs as lips, and
 /// folds and a suit's back stay grooves; of 626 triangles that turn 5 fewer and 15 more do at ±30 %.
 const STEEPEST: f64 = 1.0;
