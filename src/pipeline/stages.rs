@@ -14,7 +14,7 @@ use crate::face::FaceShape;
 use crate::face::outline::{Outline, OutlineSources};
 use crate::face::seat::Seat;
 use crate::face::stage::YoungFace;
-use crate::geometry::range;
+use crate::geometry::{distinct, range};
 use crate::options::table::PRODUCT_FACE_SQUASH;
 use crate::options::{Height, Mode, Options, Repair, Stage as LastStage};
 use crate::shape::Measured;
@@ -327,5 +327,8 @@ fn rest_triangles(view: &View) -> Result<RestTriangles> {
         meshes.iter().flat_map(|mesh| (0..mesh.positions.len()).map(|vertex| mesh.normals.get(vertex)));
     let normals: Vec<Vec3> =
         vertices.map(|normal| normal.map_or(Vec3::ZERO, |normal| normal.normalize_or_zero())).collect();
-    Ok(RestTriangles::of(&positions, &figure.triangles, &figure.mesh_starts, &weld.parted(&normals)))
+    // A triangle no wider than a seam is between two facets and of neither.
+    let has_width = |&&corners: &&[u32; 3]| distinct(weld.triangle(corners)).len() == 3;
+    let triangles: Vec<[u32; 3]> = figure.triangles.iter().filter(has_width).copied().collect();
+    Ok(RestTriangles::of(&positions, &triangles, &figure.mesh_starts, &weld.parted(&normals)))
 }

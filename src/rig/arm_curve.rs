@@ -1,7 +1,6 @@
 //! The middles of an arm's sections, and the joints that they show.
 
-use super::silhouette::lowest;
-use crate::geometry::{foot, median};
+use crate::geometry::{foot, lowest, median};
 use glam::{DVec2, DVec3};
 use std::iter::Sum;
 use std::ops::Div;

@@ -1,6 +1,6 @@
 //! What of a figure tells its front from its back: feet, face, chin.
 
-use crate::geometry::{bounds, range};
+use crate::geometry::{bounds, mean, range};
 use glam::DVec3;
 
 /// How much eyes, brows and teeth count beside the feet, where meshes of them are. Seen: ±30 % changes no direction.
@@ -71,10 +71,7 @@ fn chin_vote(points: &[DVec3]) -> f64 {
             let row = ((p.y.max(0.0) * PROFILE_ROWS as f64) as usize).min(PROFILE_ROWS - 1);
             profile[row] = profile[row].max(sign * p.z);
         }
-        let mean = |rows: &[f64]| {
-            let seen = rows.iter().filter(|z| z.is_finite());
-            seen.clone().sum::<f64>() / seen.count() as f64
-        };
+        let mean = |rows: &[f64]| mean(rows.iter().copied().filter(|z| z.is_finite())).unwrap_or(f64::NAN);
         (HEAD_ROWS.0..HEAD_ROWS.1)
             .map(|row| mean(&profile[row..row + STEP_ROWS]) - mean(&profile[row - STEP_ROWS..row]))
             .fold(0.0, f64::max)

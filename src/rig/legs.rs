@@ -1,8 +1,9 @@
 //! Legs: where they divide, and where hip, knee, ankle and toes are in them.
 
 use super::front_view::{FrontView, SLIT};
-use super::silhouette::{lowest, runs_of};
+use super::silhouette::runs_of;
 use super::solid::{Lobes, Solid};
+use crate::geometry::lowest;
 use glam::{DVec3, IVec3};
 
 /// Filled rows between two legs of up to this height do not end the gap between them: shoes, knees, a ribbon. Seen:

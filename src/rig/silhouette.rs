@@ -248,23 +248,3 @@ pub fn runs_of(filled: impl Iterator<Item = usize>, bridged: usize) -> Vec<(usiz
     }
     runs
 }
-
-/// Where `values` (place, value) are least. Along a stretch that is as low, to a hundredth, the middle of it: rounding
-/// must not decide which of its places is taken. `None` for no values.
-pub fn lowest(values: &[(f64, f64)]) -> Option<f64> {
-    let least = (0..values.len()).min_by(|&a, &b| values[a].1.total_cmp(&values[b].1))?;
-    let reach = PLATEAU * values[least].1.abs() + f64::MIN_POSITIVE;
-    // 1 at the least value, falling to 0 where a value is a hundredth above it.
-    let share = |&(_, value): &(f64, f64)| 1.0 - (value - values[least].1) / reach;
-    let beyond = values[least..].iter().take_while(|entry| share(entry) > 0.0);
-    let before = values[..least].iter().rev().take_while(|entry| share(entry) > 0.0);
-    let (mut sum, mut weight) = (0.0, 0.0);
-    for entry in before.chain(beyond) {
-        sum += share(entry) * entry.0;
-        weight += share(entry);
-    }
-    Some(sum / weight)
-}
-
-/// Values that differ by less than this share are the same. Seen: ±30 % moves joints by under 0.0005 H.
-const PLATEAU: f64 = 0.01;

@@ -55,8 +55,7 @@ struct Piece {
     places: Vec<[[u16; LANES]; 3]>,
     groups: Vec<Group>,
     runs: Vec<Run>,
-    /// Run after run, which of the batch's triangles are around the vertex, ascending; twice where it is two of a triangle's
-    /// corners.
+    /// Run after run, which of the batch's triangles are around the vertex, ascending.
     around: Vec<u16>,
 }
 
@@ -170,6 +169,7 @@ impl RestTriangles {
     /// The triangles between `positions`, around the vertices that `weld` makes one.
     ///
     /// - `positions`: model space; those of a mesh follow each other.
+    /// - `triangles`: no two of whose corners `weld` makes one.
     /// - `mesh_starts`: where each mesh's vertices start; one more than there are meshes.
     pub fn of(positions: &[Vec3], triangles: &[[u32; 3]], mesh_starts: &[usize], weld: &Weld) -> Self {
         let has_area = |&corners: &[u32; 3]| {
@@ -416,7 +416,7 @@ struct Builder<'a> {
     positions: &'a [Vec3],
     middle: DVec3,
     triangles: &'a [[u32; 3]],
-    /// The triangles around each welded vertex, ascending; twice where two of a triangle's corners are one vertex.
+    /// The triangles around each welded vertex, ascending.
     around: Rows<u32>,
     /// By triangle, the last piece that has it.
     seen: Vec<u32>,

@@ -7,8 +7,8 @@ use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use crate::geometry::{
-    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, mean,
-    range, slots, upper_median, weld,
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_RANGE, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step,
+    distinct, mean, range, slots, upper_median, weld,
 };
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
@@ -25,12 +25,10 @@ const SLIVER: f64 = 1e-3;
 pub const HAIRBREADTH: f64 = 0.01;
 /// So many of the seven rays over a head must meet it. D6, D25: with fewer the skull is in another mesh.
 const MOST_RAYS: usize = 5;
-/// Rows of rays that look for the chin. D25; a row is .3 % of the range. Seen: with half as many heads of 48 results miss by .42 % in
-/// the mean, where .32 % are missed.
-const CHIN_ROWS: usize = 240;
-/// Where those rows start and end, as shares of (crown - shoulder line), from the shoulder line. D25. Seen: ±30 % finds
-/// no chin elsewhere.
-const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
+/// Rows of rays that look for the chin. D25; a row is .6 % of the way from shoulder line to crown.
+const CHIN_ROWS: usize = 120;
+/// How often the way between two rows is halved. D25; a chin has no row of its own, so that rounding moves it by no more than itself.
+const HALVINGS: usize = 8;
 /// Columns of rays, as shares of the face's width, from its middle. D25; on a symmetric face the median is that of a
 /// column at .04, and the outer ones outvote a necklace or a beard.
 const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
@@ -369,17 +367,26 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64) -> (f64, bool
             && columns.iter().any(|&column| least.x <= column && most.x >= column)
     });
     let surface = Surface::new(positions, &near.copied().collect::<Vec<_>>());
-    let depths: Vec<Option<f64>> = (0..CHIN_ROWS)
-        .map(|row| {
-            upper_median(columns.iter().filter_map(|&column| {
-                let origin = DVec3::new(column, row_y(row), front);
-                surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
-            }))
-        })
-        .collect();
+    let depth = |y: f64| {
+        upper_median(columns.iter().filter_map(|&column| {
+            let origin = DVec3::new(column, y, front);
+            surface.first_hit(origin, DVec3::NEG_Z, f64::INFINITY).map(|hit| front - hit.t)
+        }))
+    };
+    let depths: Vec<Option<f64>> = (0..CHIN_ROWS).map(|row| depth(row_y(row))).collect();
     let band = ((CHIN_BAND * span / row_height).round() as usize).max(1);
     let search = StepSearch { band, least: CHIN_STEP * span, tie: TIE, span };
-    deepest_step(&depths, &search).map_or(by_ratio, |row| (row_y(row) - row_height / 2.0, true))
+    let place = |row: usize| {
+        let halfway = mean(depths[..=row].iter().rev().flatten().copied().take(2)).unwrap_or_default();
+        let (mut below, mut above) = (row_y(row - 1), row_y(row));
+        for _ in 0..HALVINGS {
+            let y = below.midpoint(above);
+            if depth(y).is_some_and(|depth| depth > halfway) { above = y } else { below = y }
+        }
+        // Not at corners that are as high as the step, or rounding would say which of them are of the head.
+        below - (above - below)
+    };
+    deepest_step(&depths, &search, place).map_or(by_ratio, |chin| (chin, true))
 }
 
 /// The vertices of pieces that are head and trunk for the greater part and reach no elbow and no knee, whatever moves their corners.
