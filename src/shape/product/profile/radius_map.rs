@@ -184,22 +184,21 @@ fn bounded(mut ring: Ring) -> Ring {
     ring
 }
 
-/// The reaches of what `cuts` show around their `middles`; rows of which nothing is known are filled by those beside them.
-/// `None` where nothing is met anywhere.
-pub(super) fn reaches_around(cuts: &[Vec<Outline>], middles: &[DVec2]) -> Option<Vec<Ring>> {
+/// The reaches of what `cuts` show around their `middles`, from the first row of which something is known to the last one; what is
+/// between them is filled by those beside it. With the first one's number; `None` where nothing is met anywhere.
+pub(super) fn reaches_around(cuts: &[Vec<Outline>], middles: &[DVec2]) -> Option<(usize, Vec<Ring>)> {
     let reach = |(outlines, &middle): (&Vec<Outline>, _)| bounded(outer_surface(outlines.iter(), middle));
-    let mut reaches: Vec<Ring> = cuts.iter().zip(middles).map(reach).collect();
-    let known: Vec<usize> = (0..reaches.len()).filter(|&row| !reaches[row][0].is_nan()).collect();
-    for row in 0..reaches.len() {
-        let at = known.partition_point(|&other| other < row);
-        let above = known.get(at).copied();
-        let below = at.checked_sub(1).map(|at| known[at]);
-        let (low, high) = (below.or(above)?, above.or(below)?);
-        let t = if high > low { (row - low) as f64 / (high - low) as f64 } else { 0.0 };
-        reaches[row] =
-            std::array::from_fn(|ray| reaches[low][ray] + t * (reaches[high][ray] - reaches[low][ray]));
-    }
-    Some(reaches)
+    let rings = cuts.iter().zip(middles).map(reach).enumerate();
+    let known: Vec<(usize, Ring)> = rings.filter(|(_, ring)| !ring[0].is_nan()).collect();
+    let between = |pair: &[(usize, Ring)]| {
+        let [(low, before), (high, after)] = [pair[0], pair[1]];
+        (low..high).map(move |row| {
+            let t = (row - low) as f64 / (high - low) as f64;
+            std::array::from_fn(|ray| before[ray] + t * (after[ray] - before[ray]))
+        })
+    };
+    let ((first, _), (_, last)) = (known.first()?, known.last()?);
+    Some((*first, known.windows(2).flat_map(between).chain([*last]).collect()))
 }
 
 #[cfg(test)]
