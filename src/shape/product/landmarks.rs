@@ -28,7 +28,7 @@ const MOST_RAYS: usize = 5;
 /// Rows of rays that look for the chin. D25; a row is .6 % of the way from shoulder line to crown.
 const CHIN_ROWS: usize = 120;
 /// How often the way between two rows is halved. D25; a chin has no row of its own, so that rounding moves it by no more than itself.
-const HALVINGS: usize = 8;
+const HALVINGS: usize = 16;
 /// Columns of rays, as shares of the face's width, from its middle. D25; on a symmetric face the median is that of a
 /// column at .04, and the outer ones outvote a necklace or a beard.
 const CHIN_COLUMNS: [f64; 5] = [0.0, -0.04, 0.04, -0.08, 0.08];
@@ -384,7 +384,7 @@ fn chin(sources: &HeadSources, placed: &HeadPlacement, crown: f64) -> (f64, bool
             if depth(y).is_some_and(|depth| depth > halfway) { above = y } else { below = y }
         }
         // Not at corners that are as high as the step, or rounding would say which of them are of the head.
-        below - (above - below)
+        below - SLIVER * row_height
     };
     deepest_step(&depths, &search, place).map_or(by_ratio, |chin| (chin, true))
 }
