@@ -38,8 +38,8 @@ const BOUND: f64 = 1.5;
 const STEEPEST: f64 = 1.0;
 /// The torso's rows reach down by this part of the leg.
 const TORSO_BOTTOM: f64 = 0.45;
-/// Rows of a leg and of an arm, as parts of it: an arm's end before the thumb does not.
-const LEG_ROWS: (f64, f64) = (0.02, 1.05);
+/// Rows of a leg and of an arm, as parts of it: a leg ends at its ankle, an arm before its thumb begins.
+const LEG_ROWS: (f64, f64) = (0.02, 1.0);
 const ARM_ROWS: (f64, f64) = (0.05, 0.95);
 /// Below these heights under the crotch, in torsos, the torso's relief ends; above these it does to the sides, and in the
 /// middle.
