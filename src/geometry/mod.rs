@@ -31,7 +31,7 @@ pub use lists::{by_key, distinct, marked, slots};
 pub use mapped::{Mapped, Moved, outer};
 pub use means::{mean, median, upper_median};
 pub use point_tree::PointTree;
-pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_RANGE, CHIN_STEP, StepSearch, deepest_step, lowest};
+pub use profile::{CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, StepSearch, deepest_step, lowest};
 pub use segment::foot;
 pub use slice::{Outline, Planes, slices};
 pub use smoothstep::{smoothstep, smoothstep_slope};

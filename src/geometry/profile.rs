@@ -2,9 +2,6 @@
 
 use std::ops::Range;
 
-/// Where a chin's rows start and end, as shares of the way from shoulder line to crown (D25). Seen: ±30 % finds no chin elsewhere, and
-/// moves joints by under 0.0005 H.
-pub const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
 /// A chin's bands above and below a row that are compared, as a share of the way from shoulder line to crown (D25).
 pub const CHIN_BAND: f64 = 0.05;
 /// A smaller step back than this share of the same is no chin (D25). Seen: faces step back by more than .052, a mannequin's

@@ -2,11 +2,15 @@
 
 use super::front_view::FrontView;
 use crate::geometry::{
-    CHIN_BAND, CHIN_BY_RATIO, CHIN_RANGE, CHIN_STEP, ROUNDING, StepSearch, deepest_step, lowest, median,
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, ROUNDING, StepSearch, deepest_step, lowest, median,
 };
+use std::ops::Range;
 
 /// A neck is narrower than this share of what is below it and of what is above it.
 const NECK_NARROWS: f64 = 0.75;
+/// The chin's rays start and end at these shares of the way from shoulders to crown (D25). Seen: ±30 % moves joints by
+/// under 0.0005 H.
+const CHIN_RANGE: (f64, f64) = (-0.05, 0.55);
 /// The middle's depth is a median over this share of half the width. Seen: ±30 % moves joints by under 0.0005 H.
 const MIDDLE_REACH: f64 = 0.6;
 /// The middle's depth is read within no less and no more than this of the axis, in heights: a tail is narrower, arms are
@@ -41,24 +45,23 @@ pub struct HeadLine {
 pub fn head_line(view: &FrontView, shoulder_line: f64) -> HeadLine {
     let crown = view.high.max(shoulder_line + LEAST_HEAD);
     let span = crown - shoulder_line;
-    let seen = neck(view, shoulder_line);
+    let seen = neck(view, shoulder_line..shoulder_line + 0.5 * span);
     let neck = seen.unwrap_or(shoulder_line + 0.5 * CHIN_BY_RATIO * span);
     let chin = chin(view, shoulder_line, crown).unwrap_or(shoulder_line + CHIN_BY_RATIO * span);
     let chin_z = view.depth(view.grid.row(chin), CHIN_WITHIN.1).map_or(0.0, |(_, front)| front);
     HeadLine { neck, chin, chin_z, crown, neck_seen: seen.is_some() }
 }
 
-/// The narrowest place above height `from`, where there is one: the row that is slimmest beside what is below it from there on, and
-/// beside all that is above it. What is tied on a head is narrow too, but further up than chins are.
-pub fn neck(view: &FrontView, from: f64) -> Option<f64> {
-    let end = from + CHIN_RANGE.1 * (view.high - from);
-    let first = view.grid.row(from);
+/// The narrowest place between two heights, where there is one: the row that is slimmest beside what is below it from the first one
+/// on, and beside all that is above it. What is tied on a head is narrow too, but further up.
+pub fn neck(view: &FrontView, heights: Range<f64>) -> Option<f64> {
+    let first = view.grid.row(heights.start);
     let widths: Vec<f64> = (first..view.grid.row(view.high)).map(|row| view.half_width(row)).collect();
     let most = |widths: &[f64]| widths.iter().copied().fold(0.0, f64::max);
     let share =
         |index: usize| widths[index] / most(&widths[..index]).min(most(&widths[index + 1..])).max(1e-6);
     let rows = (0..widths.len()).map(|index| (index, view.grid.y(first + index)));
-    let slim = rows.filter(|&(index, y)| widths[index] > 0.0 && y < end);
+    let slim = rows.filter(|&(index, y)| widths[index] > 0.0 && y < heights.end);
     let shares: Vec<(f64, f64)> = slim.map(|(index, y)| (y, share(index))).collect();
     let is_slim = shares.iter().any(|&(_, share)| share < NECK_NARROWS);
     lowest(&shares).filter(|_| is_slim)

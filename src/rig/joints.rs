@@ -265,7 +265,7 @@ impl Search<'_> {
     fn body<'s>(&self, legs: &Legs, solid: &'s Solid) -> Body<'s> {
         let given = [true, false].map(|left| self.given_of(ARM, left));
         let from = legs.crotch + NECK_ABOVE * (self.view.high - legs.crotch);
-        let neck = neck(self.view, from);
+        let neck = neck(self.view, from..self.view.high);
         Body { solid, axis: self.view.axis, low: self.view.low, crotch: legs.crotch, neck, given }
     }
 

@@ -7,8 +7,8 @@ use crate::character::Role;
 use crate::error::Warning;
 use crate::geometry::surface::Surface;
 use crate::geometry::{
-    CHIN_BAND, CHIN_BY_RATIO, CHIN_RANGE, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step,
-    distinct, mean, range, slots, upper_median, weld,
+    CHIN_BAND, CHIN_BY_RATIO, CHIN_STEP, SEAM, StepSearch, bounds, components, deepest_step, distinct, mean,
+    range, slots, upper_median, weld,
 };
 use crate::shape::figure::{Figure, extent};
 use crate::shape::heights::Heights;
@@ -27,6 +27,9 @@ pub const HAIRBREADTH: f64 = 0.01;
 const MOST_RAYS: usize = 5;
 /// Rows of rays that look for the chin. D25; a row is .6 % of the way from shoulder line to crown.
 const CHIN_ROWS: usize = 120;
+/// Where those rows start and end, as shares of (crown - shoulder line), from the shoulder line. D25. Seen: ±30 % finds
+/// no chin elsewhere.
+const CHIN_RANGE: (f64, f64) = (-0.05, 0.70);
 /// How often the way between two rows is halved. D25; a chin has no row of its own, so that rounding moves it by no more than itself.
 const HALVINGS: usize = 16;
 /// Columns of rays, as shares of the face's width, from its middle. D25; on a symmetric face the median is that of a
